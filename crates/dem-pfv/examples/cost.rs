@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "coupled step, 1 % of strain   {}, {} meshes in {steps} steps",
         each(start),
-        system.meshes() - 1
+        system.meshes - 1
     );
     setup.remeshing.strain = None;
     let mut system = CoupledSystem::new(system.into_grains(), setup)?;

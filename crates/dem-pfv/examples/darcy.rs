@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .iter()
             .zip(&system.pores().centres);
         let (mut square, mut sum, mut count) = (0.0, 0.0, 0.0);
-        for ((cell, at), p) in cells.zip(system.pressures()) {
+        for ((cell, at), p) in cells.zip(&system.pressures) {
             if cell.walls() == 0 {
                 let error = p - 0.5 * (PI * at.x).cos() * (PI * at[up]).cosh() / PI.cosh();
                 (square, sum, count) = (square + error * error, sum + error, count + 1.0);

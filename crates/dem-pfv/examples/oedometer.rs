@@ -93,7 +93,7 @@ fn main() -> Result<(), Failure> {
                 theory.consolidation(time)
             );
         }
-        println!("  {} {}", system.grains().steps, system.meshes());
+        println!("  {} {}", system.grains().steps, system.meshes);
     }
     at_last(&mut system, [mobility, load, strain, high], short, &settled)
 }

@@ -29,18 +29,15 @@
 //! ```
 
 mod condition;
-mod edge_forces;
 mod limit;
 mod measure;
 mod pores;
 mod setup;
-mod state;
 mod system;
 
 pub use crate::Vector;
 pub use crate::error::{CoupledError, StepLimit};
 pub use condition::{FlowCondition, Recorded, WallBoundary, Wave};
-pub use measure::Terzaghi;
+pub use measure::{State, Terzaghi};
 pub use setup::{FlowSetup, Fluid, Lubrication, Remeshing};
-pub use state::State;
-pub use system::CoupledSystem;
+pub use system::{CoupledSystem, PoreState};

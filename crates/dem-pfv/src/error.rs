@@ -159,24 +159,14 @@ pub enum GrainError {
     /// A grain in a triangle of a mesh, and the depth.
     #[error("grain {0} reaches {2:.3e} m into {1}, more than a tenth of its radius")]
     InMesh(usize, Partner, f64),
-    /// A grain that overlaps another body too deep for a step.
+    /// A grain that overlaps another body too deep for a step: its number, its centre, the other body, the depth, and
+    /// the depth over its radius.
     #[error(
-        "grain {grain} at ({:.4e}, {:.4e}, {:.4e}) m overlaps {body} by {overlap:.3e} m, {share:.2} of its radius; \
+        "grain {0} at ({x:.4e}, {y:.4e}, {z:.4e}) m overlaps {2} by {3:.3e} m, {4:.2} of its radius; \
          contacts hold up to {most} of the smaller radius: give the contact law a larger `modulus`, or take shorter steps",
-        at[0], at[1], at[2], most = DEEPEST
+        x = .1[0], y = .1[1], z = .1[2], most = DEEPEST
     )]
-    TooDeep {
-        /// The grain.
-        grain: usize,
-        /// Its centre, m.
-        at: [f64; 3],
-        /// The body that it overlaps.
-        body: Partner,
-        /// Depth, m.
-        overlap: f64,
-        /// Depth over the radius of the grain.
-        share: f64,
-    },
+    TooDeep(usize, [f64; 3], Partner, f64, f64),
     /// A grain outside the periodic box: its number, the axis, its coordinate, the ends of the period.
     #[error("grain {0} is at {2} m on axis {1}, outside the period from {from} to {to} m", from = .3[0], to = .3[1])]
     OutsidePeriod(usize, usize, f64, [f64; 2]),
@@ -233,7 +223,7 @@ impl GrainError {
             | Self::NotFinite(grain, ..)
             | Self::InWall(grain, ..)
             | Self::InMesh(grain, ..)
-            | Self::TooDeep { grain, .. }
+            | Self::TooDeep(grain, ..)
             | Self::OutsidePeriod(grain, ..)
             | Self::StepTooLarge(.., grain) => vec![grain],
             _ => Vec::new(),
@@ -309,13 +299,8 @@ pub enum Partner {
     Grain(usize),
     /// A wall.
     Wall(usize),
-    /// A triangle of a mesh.
-    Triangle {
-        /// The mesh.
-        mesh: usize,
-        /// The triangle.
-        triangle: usize,
-    },
+    /// A triangle of a mesh: the mesh's number and its own.
+    Triangle(usize, usize),
 }
 
 impl std::fmt::Display for Partner {
@@ -323,7 +308,7 @@ impl std::fmt::Display for Partner {
         match self {
             Self::Grain(grain) => write!(f, "grain {grain}"),
             Self::Wall(wall) => write!(f, "wall {wall}"),
-            Self::Triangle { mesh, triangle } => write!(f, "triangle {triangle} of mesh {mesh}"),
+            Self::Triangle(mesh, triangle) => write!(f, "triangle {triangle} of mesh {mesh}"),
         }
     }
 }
@@ -341,5 +326,6 @@ pub struct StepLimit {
     pub grain: usize,
 }
 
-/// Share of the smaller radius that an overlap may have in a step.
+/// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
+/// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
 pub(crate) const DEEPEST: f64 = 0.25;

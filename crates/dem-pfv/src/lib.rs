@@ -17,7 +17,6 @@ pub mod scene;
 pub mod triangulation;
 
 mod error;
-mod groups;
 
 pub(crate) use error::{AT_LEAST_0, BELOW_1, POSITIVE};
 pub use error::{OutOfRange, require};

@@ -46,19 +46,15 @@ mod check;
 mod compare;
 mod error;
 mod examine;
-mod fields;
 mod frames;
 mod laws;
 mod measure;
 mod model;
-mod names;
-mod origin;
 mod prepare;
 mod read;
 mod run;
 mod summary;
 mod tables;
-mod walls;
 
 pub(crate) use assemble::loads;
 pub use assemble::{Assembled, assemble};
@@ -66,21 +62,17 @@ pub use compare::Compared;
 pub use error::{DemError, Failure};
 pub(crate) use examine::plugins;
 pub use examine::{Cost, Examination, PluginInForce, examine};
-pub(crate) use fields::{displacements, names, strain_deviators, values};
+pub(crate) use frames::{displacements, names, strain_deviators, values};
 pub(crate) use laws::{Laws, throats};
 pub(crate) use measure::{headings, row};
-pub(crate) use model::{CheckpointState, Progress, load_checkpoint, save_checkpoint};
-pub use model::{Model, Saved};
-pub(crate) use names::{BOX, FAR_ENOUGH, periodic, planes, planes_with_tables, surfaces};
-pub use origin::Origin;
-pub(crate) use prepare::{POURED, from_file, named, volume};
-pub(crate) use read::read_recorded;
+pub(crate) use model::{CheckpointState, Progress};
+pub use model::{Model, Origin, Saved};
+pub(crate) use prepare::{FAR, POURED, control, from_file, named, setup, volume};
 pub use read::{Loaded, editor_schema, is_grain_scene, read};
 pub use run::{DiscreteElements, identity, run};
 pub use summary::Summary;
-pub(crate) use tables::RecordedLoad;
 pub use tables::{
     Axis, Box, Cloud, Fluid, Grains, Grown, Lattice, Oedometer, Output, Piston, Plugins, Probe,
     Rained, Reference, Run, Scene, Servo, Start as StartTable, Statistic, Wall, Wave, Weight,
 };
-pub(crate) use walls::{FAR, control, setup};
+pub(crate) use tables::{BOX, RecordedLoad};

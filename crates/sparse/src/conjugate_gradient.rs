@@ -52,10 +52,7 @@ pub fn conjugate_gradient(
     if size <= tolerance {
         return Ok(());
     }
-    Err(SparseError::NotConverged {
-        residual: size,
-        iterations: limit,
-    })
+    Err(SparseError::NotConverged(size, limit))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

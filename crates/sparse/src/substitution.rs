@@ -21,8 +21,8 @@ struct Node<'a> {
 impl<'a> Node<'a> {
     fn new(symbolic: &'a SymbolicSupernodalCholesky<u32>, values: &'a [f64], s: usize) -> Self {
         let [begin, end] = [symbolic.supernode_begin()[s], symbolic.supernode_end()[s]];
-        let range =
-            symbolic.col_ptr_for_val()[s] as usize..symbolic.col_ptr_for_val()[s + 1] as usize;
+        let starts = symbolic.col_ptr_for_val();
+        let range = starts[s] as usize..starts[s + 1] as usize;
         Self {
             begin: begin as usize,
             width: (end - begin) as usize,
@@ -109,11 +109,8 @@ fn products<const N: usize>(columns: [&[f64]; N], vector: &[f64]) -> [f64; N] {
     let rest = parts.remainder();
     for part in parts {
         for (sum, chunks) in sums.iter_mut().zip(&mut chunks) {
-            for ((s, l), x) in sum
-                .iter_mut()
-                .zip(chunks.next().unwrap_or_default())
-                .zip(part)
-            {
+            let column = chunks.next().unwrap_or_default();
+            for ((s, l), x) in sum.iter_mut().zip(column).zip(part) {
                 *s += l * x;
             }
         }

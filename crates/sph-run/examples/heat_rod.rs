@@ -8,7 +8,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sph_io::{Cells, FieldData, IoError, Piece};
 use sph_run::{
-    Frames, Identity, Model, ModelTime, Outlay, RunCounters, RunOptions, SavedState, Schedule,
+    Frames, Identity, Model, Outlay, Progress, RunCounters, RunOptions, SavedState, Schedule,
     Start, Status, Watch, run, save_state,
 };
 
@@ -64,7 +64,7 @@ impl Model for Rod {
         Ok(books)
     }
 
-    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, IoError> {
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<Progress, IoError> {
         if limit > self.time {
             let u = &self.temperature;
             let cells = u.len() as f64;
@@ -80,12 +80,13 @@ impl Model for Rod {
             self.time += self.dt;
             self.steps += 1;
         }
-        Ok(ModelTime {
+        Ok(Progress {
             time: self.time,
-            steps: self.steps,
+            step: self.steps,
             dt: self.dt,
             limiter: "diffusion",
-            size: self.temperature.len(),
+            particles: self.temperature.len(),
+            ..Progress::default()
         })
     }
 

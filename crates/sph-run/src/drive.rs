@@ -6,8 +6,7 @@ use std::time::Instant;
 use sph_io::{FolderLock, IoError, SeriesWriter};
 
 use crate::frames::{Frames, Outlay};
-use crate::model::{Model, ModelTime, Poll, RunCounters, Status};
-use crate::observer::{Command, Progress, Watch};
+use crate::model::{Command, Model, Poll, Progress, RunCounters, Status, Watch};
 use crate::options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
 use crate::schedule::{DueOutputs, Schedule};
 
@@ -34,6 +33,9 @@ pub struct Opened {
     books: RunCounters,
     files: Option<Files>,
     _lock: Option<FolderLock>,
+    started: Instant,
+    /// Wall-clock time of earlier parts of the run, s.
+    before: f64,
 }
 
 struct Files {
@@ -93,9 +95,11 @@ impl Opened {
         Ok(Opened {
             folder: folder.clone(),
             start: options.start.clone(),
+            before: books.wall_seconds,
             books,
             files,
             _lock: held,
+            started: Instant::now(),
         })
     }
 
@@ -104,30 +108,25 @@ impl Opened {
     /// # Errors
     /// Files that cannot be written, what goes wrong in the model.
     pub fn drive<M: Model>(
-        self,
+        mut self,
         model: &mut M,
         schedule: &Schedule<'_>,
         started: Instant,
         observer: &mut Watch<'_>,
     ) -> Result<Option<M::Summary>, M::Error> {
-        let mut driver = Driver {
-            before: self.books.wall_seconds,
-            opened: self,
-            schedule,
-            started,
-        };
-        match driver.drive_to_end(model, observer)? {
+        self.started = started;
+        match self.drive_to_end(model, schedule, observer)? {
             Ok(status) => {
-                let film = driver.opened.files.as_ref().map(|f| f.frames.film());
+                let film = self.files.as_ref().map(|f| f.frames.film());
                 let film = film.unwrap_or(Ok(())).map_err(M::Error::from);
                 model.agree(Poll::Written(film))?;
-                let summary = model.conclude(Ok(status), driver.counters(), observer)?;
-                driver.write_summary::<M>(summary.as_ref())?;
+                let summary = model.conclude(Ok(status), self.counters(), observer)?;
+                self.write_summary::<M>(summary.as_ref())?;
                 Ok(summary)
             }
             Err(mut error) => {
-                let summary = model.conclude(Err(&mut error), driver.counters(), observer);
-                let told = summary.and_then(|summary| driver.write_summary::<M>(summary.as_ref()));
+                let summary = model.conclude(Err(&mut error), self.counters(), observer);
+                let told = summary.and_then(|summary| self.write_summary::<M>(summary.as_ref()));
                 // The failure itself matters more than an error of writing about it.
                 if let Err(problem) = told {
                     observer.message(&format!("the summary could not be written: {problem}"));
@@ -135,6 +134,132 @@ impl Opened {
                 Err(error)
             }
         }
+    }
+
+    /// The books as they are now.
+    fn counters(&mut self) -> &RunCounters {
+        let books = &mut self.books;
+        books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
+        books
+    }
+
+    fn write_summary<M: Model>(&self, summary: Option<&M::Summary>) -> Result<(), M::Error> {
+        let written = summary.map(|s| sph_io::write_json(self.folder.join(SUMMARY), s));
+        Ok(written.unwrap_or(Ok(()))?)
+    }
+
+    /// Outcome of the run; a file that cannot be written does not end it.
+    fn drive_to_end<M: Model>(
+        &mut self,
+        model: &mut M,
+        schedule: &Schedule<'_>,
+        observer: &mut Watch<'_>,
+    ) -> Result<Result<Status, M::Error>, M::Error> {
+        let time = self.books.time;
+        match self.start {
+            Start::Afresh => self.books.next_output = (schedule.next_output)(-1.0),
+            Start::From(_) | Start::Changed => {
+                self.books.next_output = (schedule.next_output)(time);
+            }
+            Start::Resumed => {}
+        }
+        let mut limit = time;
+        loop {
+            let now = match model.advance(limit, observer) {
+                Ok(now) => Progress {
+                    end: schedule.end,
+                    ..now
+                },
+                Err(error) => return Ok(Err(error)),
+            };
+            let stepped = now.time > self.books.time;
+            self.books.time = now.time;
+            if stepped {
+                let stop = self.wants_to_stop(&now, schedule, observer);
+                match model.agree(Poll::Stop(stop)) {
+                    Ok(false) => {}
+                    Ok(true) => {
+                        self.save(model)?;
+                        return Ok(Ok(Status::Interrupted));
+                    }
+                    Err(error) => return Ok(Err(error)),
+                }
+            }
+            let due = schedule.due(now.time, &self.books);
+            if due.any() {
+                let begun = Instant::now();
+                let written = self.write(model, schedule, due, observer);
+                self.books.output_seconds += begun.elapsed().as_secs_f64();
+                model.agree(Poll::Written(written))?;
+                // The gathered findings are judged.
+                if let Err(error) = model.advance(now.time, observer) {
+                    return Ok(Err(error));
+                }
+            }
+            if now.time >= schedule.end {
+                return Ok(Ok(Status::Done));
+            }
+            if schedule.max_steps.is_some_and(|most| now.step >= most) {
+                if schedule.capped == Status::Interrupted {
+                    observer.message("the largest number of steps is reached");
+                }
+                self.save(model)?;
+                return Ok(Ok(schedule.capped));
+            }
+            limit = schedule.target(&self.books);
+        }
+    }
+
+    /// Reports a step; whether the observer or the bound on the run time stops it.
+    fn wants_to_stop(
+        &mut self,
+        now: &Progress,
+        schedule: &Schedule<'_>,
+        observer: &mut Watch<'_>,
+    ) -> bool {
+        let command = observer.step(now);
+        let most = schedule.max_wall;
+        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
+        command == Command::Stop || late
+    }
+
+    fn write<M: Model>(
+        &mut self,
+        model: &mut M,
+        schedule: &Schedule<'_>,
+        due: DueOutputs,
+        observer: &mut Watch<'_>,
+    ) -> Result<(), M::Error> {
+        let time = self.books.time;
+        if due.row {
+            let row = model.row(observer)?;
+            if let Some(files) = &mut self.files {
+                files.series.row(&row)?;
+                self.books.series = files.series.position();
+            }
+            schedule.row_written(time, &mut self.books);
+        }
+        if due.output {
+            let mut frames = self.files.as_mut().map(|f| &mut f.frames);
+            model.show(frames.as_deref_mut(), observer)?;
+            let books = &mut self.books;
+            books.outputs += 1;
+            if let Some(frames) = frames {
+                frames.written += 1;
+                books.colours.clone_from(&frames.colours);
+            }
+            books.next_output = (schedule.next_output)(time);
+        }
+        if due.checkpoint {
+            schedule.checkpoint_due(time, &mut self.books);
+            self.save(model)?;
+        }
+        Ok(())
+    }
+
+    fn save<M: Model>(&mut self, model: &mut M) -> Result<(), M::Error> {
+        let checkpoint = self.folder.join(CHECKPOINT);
+        model.save(self.counters(), &checkpoint)
     }
 }
 
@@ -156,137 +281,4 @@ fn take(folder: &Path, observer: &mut Watch<'_>) -> Result<FolderLock, IoError> 
         ));
     }
     Ok(lock)
-}
-
-struct Driver<'a> {
-    opened: Opened,
-    schedule: &'a Schedule<'a>,
-    started: Instant,
-    /// Wall-clock time of earlier parts of the run, s.
-    before: f64,
-}
-
-impl Driver<'_> {
-    /// The books as they are now.
-    fn counters(&mut self) -> &RunCounters {
-        let books = &mut self.opened.books;
-        books.wall_seconds = self.before + self.started.elapsed().as_secs_f64();
-        books
-    }
-
-    fn write_summary<M: Model>(&self, summary: Option<&M::Summary>) -> Result<(), M::Error> {
-        let written = summary.map(|s| sph_io::write_json(self.opened.folder.join(SUMMARY), s));
-        Ok(written.unwrap_or(Ok(()))?)
-    }
-
-    /// Outcome of the run; a file that cannot be written does not end it.
-    fn drive_to_end<M: Model>(
-        &mut self,
-        model: &mut M,
-        observer: &mut Watch<'_>,
-    ) -> Result<Result<Status, M::Error>, M::Error> {
-        let (schedule, time) = (self.schedule, self.opened.books.time);
-        match self.opened.start {
-            Start::Afresh => self.opened.books.next_output = (schedule.next_output)(-1.0),
-            Start::From(_) | Start::Changed => {
-                self.opened.books.next_output = (schedule.next_output)(time);
-            }
-            Start::Resumed => {}
-        }
-        let mut limit = time;
-        loop {
-            let now = match model.advance(limit, observer) {
-                Ok(now) => now,
-                Err(error) => return Ok(Err(error)),
-            };
-            let stepped = now.time > self.opened.books.time;
-            self.opened.books.time = now.time;
-            if stepped {
-                let stop = self.wants_to_stop(&now, observer);
-                match model.agree(Poll::Stop(stop)) {
-                    Ok(false) => {}
-                    Ok(true) => {
-                        self.save(model)?;
-                        return Ok(Ok(Status::Interrupted));
-                    }
-                    Err(error) => return Ok(Err(error)),
-                }
-            }
-            let due = schedule.due(now.time, &self.opened.books);
-            if due.any() {
-                let begun = Instant::now();
-                let written = self.write(model, due, observer);
-                self.opened.books.output_seconds += begun.elapsed().as_secs_f64();
-                model.agree(Poll::Written(written))?;
-                // The gathered findings are judged.
-                if let Err(error) = model.advance(now.time, observer) {
-                    return Ok(Err(error));
-                }
-            }
-            if now.time >= schedule.end {
-                return Ok(Ok(Status::Done));
-            }
-            if schedule.max_steps.is_some_and(|most| now.steps >= most) {
-                if schedule.capped == Status::Interrupted {
-                    observer.message("the largest number of steps is reached");
-                }
-                self.save(model)?;
-                return Ok(Ok(schedule.capped));
-            }
-            limit = schedule.target(&self.opened.books);
-        }
-    }
-
-    /// Reports a step; whether the observer or the bound on the run time stops it.
-    fn wants_to_stop(&mut self, now: &ModelTime, observer: &mut Watch<'_>) -> bool {
-        let command = observer.step(&Progress {
-            time: now.time,
-            end: self.schedule.end,
-            step: now.steps,
-            dt: now.dt,
-            limiter: now.limiter,
-            particles: now.size,
-        });
-        let most = self.schedule.max_wall;
-        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
-        command == Command::Stop || late
-    }
-
-    fn write<M: Model>(
-        &mut self,
-        model: &mut M,
-        due: DueOutputs,
-        observer: &mut Watch<'_>,
-    ) -> Result<(), M::Error> {
-        let time = self.opened.books.time;
-        if due.row {
-            let row = model.row(observer)?;
-            if let Some(files) = &mut self.opened.files {
-                files.series.row(&row)?;
-                self.opened.books.series = files.series.position();
-            }
-            self.schedule.row_written(time, &mut self.opened.books);
-        }
-        if due.output {
-            let mut frames = self.opened.files.as_mut().map(|f| &mut f.frames);
-            model.show(frames.as_deref_mut(), observer)?;
-            let books = &mut self.opened.books;
-            books.outputs += 1;
-            if let Some(frames) = frames {
-                frames.written += 1;
-                books.colours.clone_from(&frames.colours);
-            }
-            books.next_output = (self.schedule.next_output)(time);
-        }
-        if due.checkpoint {
-            self.schedule.checkpoint_due(time, &mut self.opened.books);
-            self.save(model)?;
-        }
-        Ok(())
-    }
-
-    fn save<M: Model>(&mut self, model: &mut M) -> Result<(), M::Error> {
-        let checkpoint = self.opened.folder.join(CHECKPOINT);
-        model.save(self.counters(), &checkpoint)
-    }
 }

@@ -11,22 +11,16 @@
 
 mod drive;
 mod frames;
-mod identity;
 mod model;
-mod observer;
 mod options;
 mod schedule;
 mod state;
 mod subject;
-mod trouble;
 
 pub use drive::{Opened, run};
 pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
-pub use identity::{FileMark, Identity};
-pub use model::{Model, ModelTime, Poll, RunCounters, Status};
-pub use observer::{Command, Observer, Progress, Watch};
-pub use options::{CHECKPOINT, RunOptions, SERIES, SUMMARY, Start};
+pub use model::{Command, Model, Observer, Poll, Progress, RunCounters, Status, Trouble, Watch};
+pub use options::{CHECKPOINT, FileMark, Identity, RunOptions, SERIES, SUMMARY, Start};
 pub use schedule::{Schedule, next_multiple};
 pub use state::{SavedState, save_state};
 pub use subject::{Ended, Method, Subject, unusable};
-pub use trouble::Trouble;

@@ -1,4 +1,4 @@
-//! Models that a driver runs.
+//! Models that a driver runs, the watchers of their progress, and the first sign of trouble.
 
 use std::path::Path;
 
@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use sph_io::{ColourRanges, IoError};
 
 use crate::frames::Frames;
-use crate::observer::Watch;
 use crate::options::Start;
 
 /// A state that advances in time, with its outputs.
@@ -36,7 +35,7 @@ pub trait Model {
     ///
     /// # Errors
     /// An error that ends the run.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, Self::Error>;
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Progress, Self::Error>;
 
     /// Names and units of the columns of `series.csv`.
     fn columns(&self) -> Vec<(String, String)>;
@@ -87,21 +86,6 @@ pub trait Model {
     ) -> Result<Option<Self::Summary>, Self::Error>;
 }
 
-/// Time and step of a model.
-#[derive(Clone, Copy, Debug)]
-pub struct ModelTime {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Steps taken.
-    pub steps: u64,
-    /// The last step, s.
-    pub dt: f64,
-    /// Bound that limited it.
-    pub limiter: &'static str,
-    /// Particles, grains, or other items of the model.
-    pub size: usize,
-}
-
 /// A question to all processes of a run.
 #[derive(Debug)]
 pub enum Poll<E> {
@@ -148,4 +132,68 @@ pub struct RunCounters {
     /// Wall-clock time of the writing since the run began or went on, s.
     #[serde(skip)]
     pub output_seconds: f64,
+}
+
+/// Progress of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Progress {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Simulated time at the end, s; a model leaves it to the driver.
+    pub end: f64,
+    /// Steps taken.
+    pub step: u64,
+    /// The last step, s.
+    pub dt: f64,
+    /// Bound that limited it.
+    pub limiter: &'static str,
+    /// Particles, grains, or other items of the model.
+    pub particles: usize,
+}
+
+/// Command of an observer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Go on.
+    Continue,
+    /// Write a checkpoint and stop.
+    Stop,
+}
+
+/// A watcher of a run.
+pub trait Observer {
+    /// After every step.
+    fn step(&mut self, progress: &Progress) -> Command;
+    /// A line worth saying.
+    fn message(&mut self, text: &str);
+}
+
+/// A silent watcher.
+impl Observer for () {
+    fn step(&mut self, _progress: &Progress) -> Command {
+        Command::Continue
+    }
+    fn message(&mut self, _text: &str) {}
+}
+
+/// A watcher for messages of a model.
+pub type Watch<'a> = dyn Observer + Send + 'a;
+
+/// When, where and in which quantity a step first failed, whether or not a shorter one helped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trouble {
+    /// Time of the state that was bad, s.
+    pub time: f64,
+    /// Steps taken before it.
+    pub step: u64,
+    /// The quantity, or the stage that reported it.
+    pub quantity: String,
+    /// The particle, where it is one's.
+    pub particle: Option<u32>,
+    /// Its place, m; empty if of no particle, or not finite.
+    pub position: Vec<f64>,
+    /// The value, if it is finite.
+    pub value: Option<f64>,
+    /// Reason.
+    pub reason: String,
 }

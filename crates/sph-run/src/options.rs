@@ -1,8 +1,79 @@
-//! Options of a run.
+//! Options of a run, and the identity of its checkpoints: scene, files that it read, version of the program.
 
 use std::path::PathBuf;
 
-use crate::identity::Identity;
+use serde::{Deserialize, Serialize};
+use sph_io::Checksum;
+
+/// Version of the program.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// All that the results of a run depend on, except the folder and the number of threads.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Text of the scene and of its overrides.
+    pub scene: String,
+    /// Version of the program; none in checkpoints of before it was kept.
+    #[serde(default)]
+    pub version: Option<String>,
+    /// Every file that the scene names.
+    #[serde(default)]
+    pub files: Vec<FileMark>,
+}
+
+/// A file and its contents.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileMark {
+    /// Dotted path of the key that names it.
+    pub key: String,
+    /// The file as the scene names it.
+    pub file: String,
+    /// Length and checksum of its content.
+    pub content: Checksum,
+}
+
+impl Identity {
+    /// That of a text alone.
+    pub fn of_text(scene: impl Into<String>) -> Self {
+        Identity {
+            scene: scene.into(),
+            version: Some(VERSION.to_string()),
+            files: Vec::new(),
+        }
+    }
+
+    /// Difference of this scene from that of a checkpoint, if there is one.
+    pub fn differs_from(&self, written: &Identity) -> Option<String> {
+        let changed = changed(&written.files, &self.files);
+        if self.scene != written.scene {
+            let why = "it was written by a different scene or with other `--set` options";
+            return Some(why.into());
+        }
+        if !changed.is_empty() {
+            let files = changed.join(", ");
+            return Some(format!(
+                "what the scene reads has changed since it was written: {files}"
+            ));
+        }
+        match &written.version {
+            same if *same == self.version => None,
+            Some(other) => Some(format!(
+                "it was written by sph {other}, and this is {VERSION}"
+            )),
+            None => Some("it was written by an earlier version of sph".into()),
+        }
+    }
+}
+
+/// The files that have changed.
+fn changed(before: &[FileMark], now: &[FileMark]) -> Vec<String> {
+    let differs = |mark: &&FileMark| {
+        let then = before.iter().find(|b| b.key == mark.key);
+        then.is_none_or(|b| b.content != mark.content)
+    };
+    let told = |mark: &FileMark| format!("`{}` ({})", mark.file, mark.key);
+    now.iter().filter(differs).map(told).collect()
+}
 
 /// Name of the checkpoint in a run's folder.
 pub const CHECKPOINT: &str = "checkpoint.sph";

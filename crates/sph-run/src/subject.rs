@@ -9,8 +9,7 @@ use serde_json::Value as Json;
 use sph_io::IoError;
 use toml::Table;
 
-use crate::model::Status;
-use crate::observer::Watch;
+use crate::model::{Status, Watch};
 use crate::options::RunOptions;
 
 /// A way to compute scenes.

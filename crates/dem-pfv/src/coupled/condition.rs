@@ -119,19 +119,8 @@ impl WallBoundary {
         }
     }
 
-    /// True if its values change while the clock runs.
-    pub(crate) fn varies(&self) -> bool {
-        use FlowCondition::{Recorded, Wave};
-        matches!(self.condition, Wave(_) | Recorded(_))
-    }
-
-    /// True if both give a pressure, or neither does: then a change needs no new matrix.
-    pub(crate) fn like(&self, other: &Self) -> bool {
-        self.sticks == other.sticks && self.presses() == other.presses()
-    }
-
-    /// True if it gives a pressure.
-    fn presses(&self) -> bool {
+    /// True if it gives a pressure: a change to another one that does, or does not as well, needs no new matrix.
+    pub(crate) fn presses(&self) -> bool {
         use FlowCondition::{Closed, Inflow};
         !matches!(self.condition, Closed | Inflow(_))
     }

@@ -47,7 +47,7 @@ pub(crate) fn strongest_drag(
     mode: Mode,
 ) -> Result<Mode, CoupledError> {
     let bodies = Bodies::new(grains);
-    let boundary = silent(pores);
+    let boundary = pores.boundary.silent();
     let places = Places::from_grains(grains);
     let mut mode = bodies.started(mode);
     bodies.normalise(&mut mode);
@@ -64,17 +64,6 @@ pub(crate) fn strongest_drag(
     let faster = |best: (usize, f64), (i, v)| if v > best.1 { (i, v) } else { best };
     (mode.grain, _) = speeds.fold((0, -1.0), faster);
     Ok(mode)
-}
-
-/// Zero wherever a pressure is given, no sources.
-fn silent(pores: &Pores) -> Boundary {
-    let mut boundary = Boundary::closed(&pores.geometry);
-    for (cell, given) in pores.boundary.given().enumerate() {
-        if given {
-            boundary.cell_pressure(cell, 0.0);
-        }
-    }
-    boundary
 }
 
 /// Masses of free bodies; infinite for the others.

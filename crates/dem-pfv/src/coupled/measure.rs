@@ -1,17 +1,28 @@
-//! Readings of a coupled system: pressures and stresses of layers, mobility, outflow; exact consolidation.
+//! Readings of a coupled system: pressures and stresses of layers, mobility, outflow, its state; exact consolidation.
 
 use std::f64::consts::PI;
 
-use crate::coupled::{CoupledError, CoupledSystem, FlowSetup, Vector, WallBoundary, condition};
-use crate::flow::{FlowSystem, PoreGeometry, Solver};
-use crate::grains::{GrainError, GrainSystem};
+use serde::{Deserialize, Serialize};
+
+use crate::coupled::pores::{PRESSED, Places};
+use crate::coupled::{
+    CoupledError, CoupledSystem, FlowSetup, PoreState, Vector, WallBoundary, condition,
+};
+use crate::flow::{Conductance, FlowSystem, PoreGeometry, Solver};
+use crate::grains::{self, ContactLaw, GrainError, GrainSystem};
+
+/// Everything a run needs to go on bit for bit, but for the laws of contacts and throats. For any serde format that
+/// keeps every bit of a number.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct State {
+    grains: grains::State,
+    setup: FlowSetup,
+    /// Places at which the mesh was made; it is made again there.
+    places: Places,
+    clock: PoreState,
+}
 
 impl CoupledSystem {
-    /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
-    pub fn pore_places(&self) -> Vec<Vector> {
-        self.pores.middles()
-    }
-
     /// Mean pressure (Pa) of the cells whose places lie between two places along an axis (m), by their volumes; none
     /// without such cells.
     pub fn layer_pressure(&self, axis: usize, from: f64, to: f64) -> Option<f64> {
@@ -23,8 +34,7 @@ impl CoupledSystem {
 
     /// Place along an axis (m), volume (m³) and pressure (Pa) of the cells whose places are inside.
     fn cells(&self, axis: usize, inside: impl Fn(&Vector) -> bool) -> Vec<(f64, f64, f64)> {
-        let places = self.pores.middles();
-        let clock = &self.clock;
+        let (places, clock) = (self.pores.geometry.middles(), &self.clock);
         let cells = places.iter().zip(&clock.volumes).zip(&clock.pressures);
         let cells = cells.filter(|((x, _), _)| inside(x));
         let cells = cells.map(|((x, volume), p)| (x[axis], *volume, *p));
@@ -81,10 +91,10 @@ impl CoupledSystem {
     pub fn mobility(&self, axis: usize) -> Result<f64, CoupledError> {
         let geometry = &self.pores.geometry;
         let mut sides = vec![WallBoundary::closed(); 6];
-        let walls = self.grains.walls.iter().enumerate();
-        let facing = |sign: f64| walls.clone().find(|(_, w)| sign * w.normal[axis] > 0.5);
+        let walls = &self.grains.walls;
+        let facing = |sign: f64| walls.iter().position(|w| sign * w.normal[axis] > 0.5);
         let none = GrainError::NoArea(2 * axis);
-        let (Some((low, _)), Some((high, _))) = (facing(1.0), facing(-1.0)) else {
+        let (Some(low), Some(high)) = (facing(1.0), facing(-1.0)) else {
             return Err(none.into());
         };
         sides[low] = WallBoundary::drained(0.0);
@@ -119,6 +129,11 @@ impl CoupledSystem {
         self.grains
     }
 
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.grains.time
+    }
+
     /// The fluid, the conditions and the criterion for meshes.
     pub fn setup(&self) -> &FlowSetup {
         &self.setup
@@ -129,24 +144,39 @@ impl CoupledSystem {
         &self.pores.geometry
     }
 
-    /// Pressures of all cells at the last step, Pa.
-    pub fn pressures(&self) -> &[f64] {
-        &self.clock.pressures
+    /// State to resume.
+    pub fn save(&self) -> State {
+        State {
+            grains: self.grains.save(),
+            setup: self.setup.clone(),
+            places: self.pores.places.clone(),
+            clock: self.clock.clone(),
+        }
     }
 
-    /// Volumes of all cells where the grains are now, m³; they add up to the box.
-    pub fn volumes(&self) -> &[f64] {
-        &self.clock.volumes
-    }
-
-    /// Rates at which the volumes changed in the last step, m³/s.
-    pub fn volume_rates(&self) -> &[f64] {
-        &self.clock.rates
-    }
-
-    /// Number of meshes made, the first included.
-    pub fn meshes(&self) -> u64 {
-        self.clock.meshes
+    /// Goes on from a saved state with the laws of contacts and conductances that the saved run had.
+    ///
+    /// # Errors
+    /// A state whose parts do not fit together.
+    pub fn resume(
+        state: State,
+        laws: Vec<Box<dyn ContactLaw>>,
+        law: Box<dyn Conductance>,
+    ) -> Result<Self, CoupledError> {
+        let grains = GrainSystem::resume(state.grains, laws)?;
+        let (setup, places, clock) = (state.setup, state.places, state.clock);
+        setup.check(&grains)?;
+        let bad = |problem| Err(CoupledError::BadState(problem));
+        if places.centres.len() != grains.grains.len() || places.walls.len() != grains.walls.len() {
+            return bad("the mesh is that of other grains or walls");
+        }
+        let system = Self::meshed(grains, setup, law, (places, PRESSED), clock)?;
+        let (clock, cells) = (&system.clock, system.pores.geometry.volumes.len());
+        let columns = [&clock.volumes, &clock.rates, &clock.pressures];
+        if columns.iter().any(|c| c.len() != cells) {
+            return bad("columns of the pores differ in length from the mesh");
+        }
+        Ok(system)
     }
 }
 

@@ -5,7 +5,8 @@ use sph_core::parameters;
 
 use crate::coupled::{CoupledError, WallBoundary};
 use crate::flow::{SolidAngles, Solver};
-use crate::{OutOfRange, POSITIVE, require};
+use crate::grains::GrainSystem;
+use crate::{AT_LEAST_0, POSITIVE, require};
 
 /// The fluid in the pores.
 #[parameters]
@@ -68,10 +69,8 @@ impl Fluid {
         if let Some(Lubrication { roughness, range }) = self.lubrication {
             let what = "the roughness of lubrication is";
             require(what, roughness, POSITIVE, roughness > 0.0)?;
-            let (what, valid) = (
-                "the range of lubrication is",
-                "above the roughness and finite",
-            );
+            let valid = "above the roughness and finite";
+            let what = "the range of lubrication is";
             require(what, range, valid, range > roughness)?;
         }
         let k = self.bulk_modulus.unwrap_or(1.0);
@@ -98,13 +97,6 @@ impl Default for Remeshing {
             strain: Some(0.01),
             most_steps: None,
         }
-    }
-}
-
-impl Remeshing {
-    pub(crate) fn due(&self, strain: f64, steps: u64) -> bool {
-        self.strain.is_some_and(|most| strain >= most)
-            || self.most_steps.is_some_and(|n| steps >= n)
     }
 }
 
@@ -144,7 +136,14 @@ impl FlowSetup {
         self
     }
 
-    pub(crate) fn check(&self, walls: usize) -> Result<(), CoupledError> {
+    pub(crate) fn check(&self, grains: &GrainSystem) -> Result<(), CoupledError> {
+        if !grains.meshes.is_empty() {
+            return Err(CoupledError::Meshes(grains.meshes.len()));
+        }
+        if let Some(axis) = grains.period.iter().position(Option::is_some) {
+            return Err(CoupledError::Periodic(axis));
+        }
+        let walls = grains.walls.len();
         self.fluid.check()?;
         if self.sides.len() != walls {
             return Err(CoupledError::Sides(self.sides.len(), walls));
@@ -152,13 +151,9 @@ impl FlowSetup {
         for (wall, side) in self.sides.iter().enumerate() {
             side.check(wall)?;
         }
-        match self.remeshing.strain {
-            Some(value) if value.is_nan() || value < 0.0 => Err(CoupledError::Number(OutOfRange {
-                what: "the strain for remeshing is".into(),
-                value,
-                valid: "at least 0",
-            })),
-            _ => Ok(()),
-        }
+        let finite = |strain: &f64| *strain != f64::INFINITY;
+        let strain = self.remeshing.strain.filter(finite).unwrap_or_default();
+        let what = "the strain for remeshing is";
+        Ok(require(what, strain, AT_LEAST_0, strain >= 0.0)?)
     }
 }

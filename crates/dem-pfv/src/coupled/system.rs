@@ -1,8 +1,12 @@
 //! The coupled system: made, stepped, meshed anew.
 
+use std::ops::Deref;
+
+use serde::{Deserialize, Serialize};
+
 use crate::coupled::limit::{Mode, combined, strongest_drag};
 use crate::coupled::pores::{GIVEN, PRESSED, Places, Pores, transferred};
-use crate::coupled::{CoupledError, FlowSetup, StepLimit, WallBoundary, condition};
+use crate::coupled::{CoupledError, FlowCondition, FlowSetup, StepLimit, WallBoundary, condition};
 use crate::flow::{Conductance, HydraulicRadius, Storage};
 use crate::grains::GrainSystem;
 use crate::{POSITIVE, require, sphere};
@@ -24,35 +28,43 @@ pub struct CoupledSystem {
     pub(crate) setup: FlowSetup,
     pub(crate) law: Box<dyn Conductance>,
     pub(crate) pores: Pores,
-    pub(crate) clock: Clock,
+    pub(crate) clock: PoreState,
     /// True if contacts were found where the grains are now.
     pub(crate) evaluated: bool,
     /// Flux into the pores through every wall at the last step, m³/s, if it is measured; none before the first.
     pub(crate) inflows: Option<Vec<f64>>,
 }
 
-/// State remembered from step to step.
-#[derive(Clone, Debug, Default, serde::Deserialize, serde::Serialize)]
-pub(crate) struct Clock {
-    /// Volumes of the cells where grains are now, m³.
+/// State of the pores that is remembered from step to step.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct PoreState {
+    /// Volumes of all cells where the grains are now, m³; they add up to the box.
     pub volumes: Vec<f64>,
     /// Rates at which they changed in the last step, m³/s; none before the first.
     pub rates: Vec<f64>,
-    /// Pressures of the last step, Pa.
+    /// Pressures of all cells at the last step, Pa.
     pub pressures: Vec<f64>,
     /// Strain summed since the mesh was made.
-    pub strain: f64,
+    pub(crate) strain: f64,
     /// Steps since then.
-    pub age: u64,
-    /// Meshes made.
+    pub(crate) age: u64,
+    /// Number of meshes made, the first included.
     pub meshes: u64,
     /// The last step, s; none before the first.
-    pub last_step: Option<f64>,
+    pub(crate) last_step: Option<f64>,
     /// Step for which a fluid that gives way was factorised, s.
-    pub storage_step: f64,
+    pub(crate) storage_step: f64,
     /// Mode of strongest drag, and whether it is that of this mesh.
-    pub mode: Mode,
-    pub fresh: bool,
+    pub(crate) mode: Mode,
+    pub(crate) fresh: bool,
+}
+
+impl Deref for CoupledSystem {
+    type Target = PoreState;
+
+    fn deref(&self) -> &PoreState {
+        &self.clock
+    }
 }
 
 impl CoupledSystem {
@@ -75,39 +87,39 @@ impl CoupledSystem {
         setup: FlowSetup,
         law: Box<dyn Conductance>,
     ) -> Result<Self, CoupledError> {
-        check(&grains, &setup)?;
+        setup.check(&grains)?;
         let places = Places::from_grains(&grains);
-        let storage_step = 0.1 * grains.critical_step();
-        let (radii, now) = (&grains.grains.radius, [grains.time, storage_step]);
-        let pores = Pores::new(places, radii, &setup, &*law, now, GIVEN)?;
-        let volumes = pores.geometry.volumes.to_vec();
-        let clock = Clock {
-            rates: vec![0.0; volumes.len()],
-            pressures: vec![0.0; volumes.len()],
-            volumes,
+        let clock = PoreState {
             meshes: 1,
-            storage_step,
-            ..Clock::default()
+            storage_step: 0.1 * grains.critical_step(),
+            ..PoreState::default()
         };
-        Ok(Self::from_parts(grains, setup, law, pores, clock))
+        let mut system = Self::meshed(grains, setup, law, (places, GIVEN), clock)?;
+        let clock = &mut system.clock;
+        clock.volumes = system.pores.geometry.volumes.to_vec();
+        clock.rates = vec![0.0; clock.volumes.len()];
+        clock.pressures = clock.rates.clone();
+        Ok(system)
     }
 
-    pub(crate) fn from_parts(
+    /// With the mesh of grains at their places and the deepest overlap.
+    pub(crate) fn meshed(
         grains: GrainSystem,
         setup: FlowSetup,
         law: Box<dyn Conductance>,
-        pores: Pores,
-        clock: Clock,
-    ) -> Self {
-        Self {
+        (places, deepest): (Places, f64),
+        clock: PoreState,
+    ) -> Result<Self, CoupledError> {
+        let step = clock.storage_step;
+        Ok(Self {
+            pores: Pores::new(places, &grains, &setup, &*law, step, deepest)?,
             grains,
             setup,
             law,
-            pores,
             clock,
             evaluated: false,
             inflows: None,
-        }
+        })
     }
 
     fn evaluate(&mut self) -> Result<(), CoupledError> {
@@ -153,7 +165,9 @@ impl CoupledSystem {
         let strain = self.measure_rates(&here, step);
         self.clock.strain += strain;
         self.clock.age += 1;
-        if self.setup.remeshing.due(self.clock.strain, self.clock.age) {
+        let (clock, remeshing) = (&self.clock, self.setup.remeshing);
+        let strained = remeshing.strain.is_some_and(|most| clock.strain >= most);
+        if strained || remeshing.most_steps.is_some_and(|n| clock.age >= n) {
             self.rebuild(here.clone())?;
             self.clock.volumes = self.pores.volumes(&before);
             self.measure_rates(&here, step);
@@ -183,9 +197,9 @@ impl CoupledSystem {
     /// λ_max Δt / 2 + ω_max² Δt² / 4 < 1
     /// ```
     ///
-    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found anew every hundred steps. Walls that follow a
-    /// servo count as fixed. The rule of the thesis, Eq. (4.20), takes every grain as if it moved alone and is too
-    /// long by a factor of three to six for narrow gradings.
+    /// λ by power iterations once per mesh, plus a bound for forces between neighbours, ω by a bound that is found
+    /// anew every hundred steps. Walls that follow a servo count as fixed. The rule of the thesis, Eq. (4.20), takes
+    /// every grain as if it moved alone and is too long by a factor of three to six for narrow gradings.
     ///
     /// # Errors
     /// A system that cannot be solved.
@@ -225,7 +239,9 @@ impl CoupledSystem {
 
     /// Pressures of the rates of now, and the fluid's forces on grains and walls.
     fn press(&mut self) -> Result<(), CoupledError> {
-        if self.setup.sides.iter().any(WallBoundary::varies) {
+        use FlowCondition::{Recorded, Wave};
+        let varies = |s: &WallBoundary| matches!(s.condition, Wave(_) | Recorded(_));
+        if self.setup.sides.iter().any(varies) {
             self.pores.refresh(&self.setup, self.grains.time);
         }
         let (pores, clock) = (&mut self.pores, &mut self.clock);
@@ -249,13 +265,13 @@ impl CoupledSystem {
             wall.external_force = *f;
         }
         if let Some(edges) = &pores.edges {
-            let loads = edges.apply(&self.grains, &self.setup.fluid);
+            let [forces, torques, walls] = edges.apply(&self.grains, &self.setup.fluid);
             let grains = &mut self.grains.grains;
-            for (external, f) in grains.external_force.iter_mut().zip(&loads.forces) {
+            for (external, f) in grains.external_force.iter_mut().zip(&forces) {
                 *external += f;
             }
-            grains.external_torque.copy_from_slice(&loads.torques);
-            for (wall, f) in self.grains.walls.iter_mut().zip(&loads.walls) {
+            grains.external_torque.copy_from_slice(&torques);
+            for (wall, f) in self.grains.walls.iter_mut().zip(&walls) {
                 wall.external_force += f;
             }
         }
@@ -290,9 +306,8 @@ impl CoupledSystem {
 
     /// Makes the mesh anew where the grains are; rates are left to the caller.
     fn rebuild(&mut self, places: Places) -> Result<(), CoupledError> {
-        let now = [self.grains.time, self.clock.storage_step];
-        let radii = &self.grains.grains.radius;
-        let pores = Pores::new(places, radii, &self.setup, &*self.law, now, PRESSED)?;
+        let (setup, step) = (&self.setup, self.clock.storage_step);
+        let pores = Pores::new(places, &self.grains, setup, &*self.law, step, PRESSED)?;
         let clock = &mut self.clock;
         clock.pressures = transferred(&self.pores, &clock.pressures, &pores);
         clock.volumes = pores.geometry.volumes.to_vec();
@@ -325,10 +340,11 @@ impl CoupledSystem {
             return Err(CoupledError::BadCondition(wall, problem));
         };
         let old = std::mem::replace(slot, side.clone());
-        let done = if old.like(&side) {
+        let same = old.sticks == side.sticks;
+        let done = if same && old.presses() == side.presses() {
             self.pores.refresh(&self.setup, self.grains.time);
             Ok(())
-        } else if old.sticks == side.sticks {
+        } else if same {
             let now = [self.grains.time, self.clock.storage_step];
             self.clock.fresh = false;
             self.pores.reassemble(&self.setup, &*self.law, now)
@@ -340,19 +356,4 @@ impl CoupledSystem {
         }
         done
     }
-
-    /// Time, s.
-    pub fn time(&self) -> f64 {
-        self.grains.time
-    }
-}
-
-pub(crate) fn check(grains: &GrainSystem, setup: &FlowSetup) -> Result<(), CoupledError> {
-    if !grains.meshes.is_empty() {
-        return Err(CoupledError::Meshes(grains.meshes.len()));
-    }
-    if let Some(axis) = grains.period.iter().position(Option::is_some) {
-        return Err(CoupledError::Periodic(axis));
-    }
-    setup.check(grains.walls.len())
 }

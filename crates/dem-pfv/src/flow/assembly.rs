@@ -4,29 +4,11 @@ use sparse::UpperTriangle;
 use sph_core::Sets;
 
 use crate::Vector;
-use crate::flow::{Conductance, FlowError, PoreGeometry};
+use crate::flow::{FlowError, PoreGeometry};
 use crate::triangulation::Vertex;
 
 /// A cell of a given pressure, in place of the number of an unknown.
 pub const GIVEN: u32 = u32::MAX;
-
-pub fn conductances(
-    geometry: &PoreGeometry,
-    law: &dyn Conductance,
-    viscosity: f64,
-) -> Result<Vec<f64>, FlowError> {
-    let conductance = |t: &crate::flow::Throat| {
-        if t.open || t.fluid_area <= 0.0 {
-            return Ok(0.0);
-        }
-        let value = law.conductance(t);
-        match value >= 0.0 && value.is_finite() {
-            true => Ok(value / (viscosity * t.length)),
-            false => Err(FlowError::BadConductance(t.cells, value)),
-        }
-    };
-    geometry.throats.iter().map(conductance).collect()
-}
 
 /// The lowest cell of every group that pairs join.
 pub fn joined(cells: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Vec<u32> {
@@ -37,19 +19,14 @@ pub fn joined(cells: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Vec<u32> {
     (0..cells).map(|cell| groups.root(cell) as u32).collect()
 }
 
-/// For every pore, the first of its cells that has a given pressure.
-pub fn firsts(boundary: &Boundary, pores: &[u32]) -> Vec<u32> {
+/// The cell whose given pressure holds in each cell: itself, or the first of its pore that has one.
+pub fn givers(boundary: &Boundary, pores: &[u32]) -> Vec<u32> {
     let mut first = vec![GIVEN; pores.len()];
     for (c, pore) in pores.iter().enumerate() {
         if boundary.pressures[c].is_some() && first[*pore as usize] == GIVEN {
             first[*pore as usize] = c as u32;
         }
     }
-    first
-}
-
-/// The cell whose given pressure holds in each cell: itself, or the first of its pore that has one.
-pub fn givers(boundary: &Boundary, pores: &[u32], first: &[u32]) -> Vec<u32> {
     let giver = |(c, pore): (usize, &u32)| match (boundary.pressures[c], first[*pore as usize]) {
         (None, giver) if giver != GIVEN => giver,
         _ => c as u32,
@@ -57,18 +34,19 @@ pub fn givers(boundary: &Boundary, pores: &[u32], first: &[u32]) -> Vec<u32> {
     pores.iter().enumerate().map(giver).collect()
 }
 
+/// Refuses pores that no known pressure can reach; `known` has an entry for each cell.
 pub fn reachable(
     conductances: &[f64],
     ends: &[[u32; 2]],
-    first: &[u32],
+    known: &[bool],
     pores: &[u32],
 ) -> Result<(), FlowError> {
     let passable = conductances.iter().zip(ends).filter(|(k, _)| **k > 0.0);
     let pairs = passable.map(|(_, e)| e.map(|c| pores[c as usize]));
     let regions = joined(pores.len(), pairs);
     let mut reached = vec![false; pores.len()];
-    for (pore, first) in first.iter().enumerate() {
-        reached[regions[pore] as usize] |= *first != GIVEN;
+    for (pore, known) in pores.iter().zip(known) {
+        reached[regions[*pore as usize] as usize] |= *known;
     }
     let cut_off = |p: &u32| !reached[regions[*p as usize] as usize];
     let cut_off = pores.iter().position(cut_off);
@@ -76,12 +54,12 @@ pub fn reachable(
 }
 
 /// Unknowns of all cells, in the order of the pores, and their count.
-pub fn numbered(pores: &[u32], first: &[u32]) -> (Vec<u32>, usize) {
+pub fn numbered(pores: &[u32], known: &[bool]) -> (Vec<u32>, usize) {
     let (mut numbers, mut count) = (vec![GIVEN; pores.len()], 0);
     for (c, &pore) in pores.iter().enumerate() {
         if pore as usize != c {
             numbers[c] = numbers[pore as usize];
-        } else if first[c] == GIVEN {
+        } else if !known[c] {
             numbers[c] = count;
             count += 1;
         }
@@ -165,18 +143,17 @@ impl Boundary {
         total
     }
 
-    /// Gives the pressure of one cell, Pa.
-    pub fn cell_pressure(&mut self, cell: usize, pressure: f64) {
-        self.pressures[cell] = Some(pressure);
-    }
-
     /// Adds a source to one cell, m³/s; negative takes fluid out.
     pub fn source(&mut self, cell: usize, rate: f64) {
         self.sources[cell] += rate;
     }
 
-    /// For every cell, whether it has a given pressure.
-    pub fn given(&self) -> impl Iterator<Item = bool> {
-        self.pressures.iter().map(Option::is_some)
+    /// Zero wherever a pressure is given, no sources.
+    pub(crate) fn silent(&self) -> Self {
+        let pressures = self.pressures.iter().map(|p| p.map(|_| 0.0));
+        Self {
+            pressures: pressures.collect(),
+            sources: vec![0.0; self.sources.len()],
+        }
     }
 }

@@ -54,10 +54,7 @@ impl<'a> Facet<'a> {
             return 0.0;
         }
         let s = self.spheres[k];
-        let (a, b) = (
-            self.spheres[(k + 1) % 3].centre,
-            self.spheres[(k + 2) % 3].centre,
-        );
+        let [a, b] = [1, 2].map(|n| self.spheres[(k + n) % 3].centre);
         let along = (b - a).normalize();
         let foot = along.dot(&(s.centre - a));
         let m = (s.centre - a - foot * along).norm_squared();
@@ -104,11 +101,8 @@ pub fn inscribed_radius(facet: &Facet, normal: Vector) -> Option<f64> {
     let discs = facet.spheres[1..].iter().map(|s| {
         let d = s.centre - first.centre;
         let weights = (first.radius - s.radius) * (first.radius + s.radius);
-        (
-            2.0 * d,
-            d.norm_squared() + weights,
-            -2.0 * (s.radius - first.radius),
-        )
+        let rate = -2.0 * (s.radius - first.radius);
+        (2.0 * d, d.norm_squared() + weights, rate)
     });
     let wall = |w: &&Wall| (w.normal, -w.distance(first.centre), 1.0);
     let walls = facet.walls.iter().map(wall);
@@ -118,10 +112,7 @@ pub fn inscribed_radius(facet: &Facet, normal: Vector) -> Option<f64> {
     };
     let matrix = Matrix3::from_rows(&[a.transpose(), b.transpose(), normal.transpose()]);
     let inverse = matrix.try_inverse()?;
-    let (u, v) = (
-        inverse * Vector::new(a0, b0, 0.0),
-        inverse * Vector::new(a1, b1, 0.0),
-    );
+    let [u, v] = [[a0, b0], [a1, b1]].map(|[a, b]| inverse * Vector::new(a, b, 0.0));
     let square = v.norm_squared() - 1.0;
     let linear = u.dot(&v) - first.radius;
     let constant = u.norm_squared() - first.radius * first.radius;

@@ -1,6 +1,7 @@
 //! Forces of the fluid on spheres and walls.
 
 use rayon::prelude::*;
+use sparse::Groups;
 
 use crate::Vector;
 use crate::flow::PoreGeometry;
@@ -79,8 +80,8 @@ impl Forces {
 /// and on walls the viscous share and the cell's area in the wall. Bodies are the spheres, then the walls. Source:
 /// Catalano 2012, Eqs. (3.10), (3.13), (3.14), (4.6); the same numbers as `dem_pfv::flow::Forces`.
 pub(crate) struct UnitForces {
-    starts: Vec<usize>,
-    cells: Vec<u32>,
+    /// Cells around each body.
+    around: Groups,
     vectors: Vec<Vector>,
 }
 
@@ -105,7 +106,7 @@ impl UnitForces {
         }
         let spheres = (0..mesh.spheres.len()).map(Vertex::Sphere);
         let bodies = spheres.chain((0..mesh.walls.len()).map(Vertex::Wall));
-        let (mut starts, mut cells, mut vectors) = (vec![0], Vec::new(), Vec::new());
+        let mut vectors = Vec::new();
         for body in bodies {
             for &cell in mesh.cells_around(body) {
                 let vertices = mesh.cells[cell as usize].vertices();
@@ -114,14 +115,11 @@ impl UnitForces {
                 if let Vertex::Wall(w) = body {
                     vector -= pores.area_on_wall(cell as usize, w) * mesh.walls[w].normal;
                 }
-                cells.push(cell);
                 vectors.push(vector);
             }
-            starts.push(cells.len());
         }
         Self {
-            starts,
-            cells,
+            around: mesh.around.clone(),
             vectors,
         }
     }
@@ -129,13 +127,13 @@ impl UnitForces {
     /// Force on every sphere and wall (N) of the pressures of all cells (Pa); each body sums its cells in their order.
     pub fn apply(&self, pressures: &[f64]) -> Vec<Vector> {
         let force = |body: usize| {
-            let range = self.starts[body]..self.starts[body + 1];
-            let terms = self.cells[range.clone()].iter().zip(&self.vectors[range]);
+            let vectors = &self.vectors[self.around.range(body)];
+            let terms = self.around.members(body).iter().zip(vectors);
             terms.fold(Vector::zeros(), |sum, (c, u)| {
                 sum + u * pressures[*c as usize]
             })
         };
-        let bodies = (0..self.starts.len() - 1).into_par_iter();
+        let bodies = (0..self.around.starts.len() - 1).into_par_iter();
         bodies.with_min_len(TASK).map(force).collect()
     }
 }

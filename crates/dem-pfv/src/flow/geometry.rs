@@ -87,6 +87,22 @@ impl PoreGeometry {
         area.dot(&self.mesh.walls[wall].normal).abs()
     }
 
+    /// A place inside each cell (m), for sensors and profiles: the mean of its centres, half-way to its walls.
+    pub fn middles(&self) -> Vec<Vector> {
+        let mesh = &self.mesh;
+        let middle = |cell: &Cell| {
+            let mean = mesh.middle(cell);
+            cell.vertices().iter().fold(mean, |at, v| match v {
+                Vertex::Wall(w) => {
+                    let wall = &mesh.walls[*w];
+                    at - 0.5 * wall.distance(mean) * wall.normal
+                }
+                Vertex::Sphere(_) => at,
+            })
+        };
+        mesh.cells.iter().map(middle).collect()
+    }
+
     /// All edges with a sphere, in the order of their numbers, spheres before walls. A face between grains at a free
     /// surface reaches up to the wall above them.
     ///
@@ -129,9 +145,14 @@ impl PoreGeometry {
             return 0.0;
         };
         let Sphere { centre, radius } = mesh.spheres[sphere];
+        let between = along.norm();
         let distance = match other {
-            Vertex::Sphere(l) => face_distance(along.norm(), radius, mesh.spheres[l].radius),
-            Vertex::Wall(_) => along.norm(),
+            // Where the powers of a point on the line of centres are equal.
+            Vertex::Sphere(l) => {
+                let second = mesh.spheres[l].radius;
+                0.5 * (between + (radius * radius - second * second) / between)
+            }
+            Vertex::Wall(_) => between,
         };
         let middle = centre + distance * direction;
         let [i, j] = throat.cells.map(|c| self.centres[c] - middle);
@@ -259,10 +280,4 @@ pub struct Edge {
     pub other: Vertex,
     /// Area S of the face between both in the power diagram, m²: the polygon of the power centres around the edge.
     pub area: f64,
-}
-
-/// Distance (m) of the face between two spheres from the centre of the first: where the powers of a point on the line
-/// of centres are equal.
-fn face_distance(between: f64, first: f64, second: f64) -> f64 {
-    0.5 * (between + (first * first - second * second) / between)
 }

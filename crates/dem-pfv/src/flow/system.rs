@@ -3,11 +3,9 @@
 use serde::{Deserialize, Serialize};
 use sparse::{Cholesky, Order, UpperTriangle, conjugate_gradient, nested_dissection};
 
-use crate::flow::assembly::{
-    GIVEN, assemble, conductances, firsts, givers, joined, numbered, reachable,
-};
-use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry};
-use crate::require;
+use crate::flow::assembly::{GIVEN, assemble, givers, joined, numbered, reachable};
+use crate::flow::{Boundary, Conductance, FlowError, PoreGeometry, Throat};
+use crate::{POSITIVE, require};
 
 /// Solvers of the system.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -35,8 +33,12 @@ pub struct Storage {
     pub step: f64,
 }
 
-/// Above this many unknowns, `Automatic` iterates.
+/// Above this many unknowns, `Automatic` iterates so.
 const FACTORISED: usize = 100_000;
+const ITERATED: Solver = Solver::ConjugateGradient {
+    tolerance: 1e-10,
+    limit: 20_000,
+};
 
 /// Σ_j k_ij (p_i − p_j) + V/(K Δt) (p_i − p_i,old) = −dV_i/dt + Q_i for all pores without a given pressure.
 /// Symmetric and positive definite. Source: Catalano 2012, Eqs. (3.2), (3.3), (4.8).
@@ -80,18 +82,31 @@ impl FlowSystem {
         storage: Option<Storage>,
         solver: Solver,
     ) -> Result<Self, FlowError> {
-        positive("viscosity is", viscosity)?;
-        let conductances = conductances(geometry, law, viscosity)?;
+        require("viscosity is", viscosity, POSITIVE, viscosity > 0.0)?;
+        let conductance = |t: &Throat| {
+            if t.open || t.fluid_area <= 0.0 {
+                return Ok(0.0);
+            }
+            match law.conductance(t) {
+                g if g >= 0.0 && g.is_finite() => Ok(g / (viscosity * t.length)),
+                g => Err(FlowError::BadConductance(t.cells, g)),
+            }
+        };
+        let conductances = geometry.throats.iter().map(conductance);
+        let conductances = conductances.collect::<Result<Vec<_>, _>>()?;
         let ends = geometry.throats.iter().map(|t| t.cells.map(|c| c as u32));
         let ends: Vec<_> = ends.collect();
         let open = geometry.throats.iter().zip(&ends).filter(|(t, _)| t.open);
         let pores = joined(geometry.volumes.len(), open.map(|(_, e)| *e));
-        let first = firsts(boundary, &pores);
+        let givers = givers(boundary, &pores);
+        let known = givers
+            .iter()
+            .map(|c| boundary.pressures[*c as usize].is_some());
+        let known: Vec<_> = known.collect();
         if storage.is_none() {
-            reachable(&conductances, &ends, &first, &pores)?;
+            reachable(&conductances, &ends, &known, &pores)?;
         }
-        let givers = givers(boundary, &pores, &first);
-        let (unknowns, count) = numbered(&pores, &first);
+        let (unknowns, count) = numbered(&pores, &known);
         let (diagonal, matrix) = assemble(&conductances, &ends, &unknowns, count);
         let mut system = Self {
             conductances,
@@ -104,7 +119,11 @@ impl FlowSystem {
             storage,
             diagonal,
             matrix,
-            solver: chosen(solver, count),
+            solver: match solver {
+                Solver::Automatic if count <= FACTORISED => Solver::Direct,
+                Solver::Automatic => ITERATED,
+                chosen => chosen,
+            },
             factor: None,
             last: vec![0.0; count],
         };
@@ -135,8 +154,9 @@ impl FlowSystem {
     fn refresh(&mut self) -> Result<(), FlowError> {
         let mut diagonal = self.diagonal.clone();
         if let Some(storage) = self.storage {
-            positive("bulk modulus is", storage.bulk_modulus)?;
-            positive("step is", storage.step)?;
+            let (modulus, step) = (storage.bulk_modulus, storage.step);
+            require("bulk modulus is", modulus, POSITIVE, modulus > 0.0)?;
+            require("step is", step, POSITIVE, step > 0.0)?;
             for (c, &u) in self.unknowns.iter().enumerate() {
                 if u != GIVEN {
                     diagonal[u as usize] += self.capacity(c);
@@ -156,8 +176,8 @@ impl FlowSystem {
     /// V_void / (K Δt) of a cell, m³ Pa⁻¹ s⁻¹.
     fn capacity(&self, cell: usize) -> f64 {
         let per_volume = |s: Storage| 1.0 / (s.bulk_modulus * s.step);
-        self.storage
-            .map_or(0.0, |s| self.void_volumes[cell].max(0.0) * per_volume(s))
+        let stored = |s| self.void_volumes[cell].max(0.0) * per_volume(s);
+        self.storage.map_or(0.0, stored)
     }
 
     /// Pressures of all cells (Pa) from which conjugate gradients start; the last ones by default. A
@@ -178,20 +198,8 @@ impl FlowSystem {
     /// Checks that a list has a number for each cell.
     fn fits(&self, what: &'static str, given: usize) -> Result<(), FlowError> {
         let needed = self.unknowns.len();
-        match given == needed {
-            true => Ok(()),
-            false => Err(FlowError::Length(what, given, needed)),
-        }
-    }
-
-    /// Number of unknown pressures.
-    pub fn unknowns(&self) -> usize {
-        self.matrix.len()
-    }
-
-    /// k of every throat, m³ Pa⁻¹ s⁻¹; zero for open ones, whose cells have one pressure.
-    pub fn conductances(&self) -> &[f64] {
-        &self.conductances
+        let wrong = FlowError::Length(what, given, needed);
+        (given == needed).then_some(()).ok_or(wrong)
     }
 
     /// Pressures of all cells (Pa), with rates of the cells' volumes dV/dt (m³/s); an empty list stands for
@@ -312,20 +320,5 @@ impl FlowSystem {
             }
         });
         flux.sum()
-    }
-}
-
-fn positive(what: &'static str, value: f64) -> Result<(), FlowError> {
-    Ok(require(what, value, "positive and finite", value > 0.0)?)
-}
-
-fn chosen(solver: Solver, unknowns: usize) -> Solver {
-    match solver {
-        Solver::Automatic if unknowns <= FACTORISED => Solver::Direct,
-        Solver::Automatic => Solver::ConjugateGradient {
-            tolerance: 1e-10,
-            limit: 20_000,
-        },
-        chosen => chosen,
     }
 }

@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Registry, plugin};
 use toml::Table;
 
+use crate::Vector;
 use crate::flow::facet::{Facet, angle, edge, inscribed_radius};
 use crate::flow::{FlowError, solid_angle};
 use crate::triangulation::{self as mesh, Triangulation, Vertex};
-use crate::{Vector, require};
 
 /// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,10 +131,8 @@ impl Pores<'_> {
             Vertex::Sphere(k) => base.unwrap_or_default() - self.mesh.spheres[k].centre,
             Vertex::Wall(w) => self.mesh.walls[w].normal,
         };
-        match area.dot(&direction) < 0.0 {
-            true => -area,
-            false => area,
-        }
+        let inwards = area.dot(&direction) < 0.0;
+        if inwards { -area } else { area }
     }
 
     /// Sectors, volume and wetted areas of the spheres.
@@ -195,14 +193,6 @@ impl Pores<'_> {
 pub trait Conductance: Send + Sync {
     /// g µ (m⁴) with the flux q = g (p_i − p_j) / L. Zero closes a throat.
     fn conductance(&self, throat: &Throat) -> f64;
-
-    /// Checks the parameters.
-    ///
-    /// # Errors
-    /// The parameter and its value: [`require`].
-    fn check(&self) -> Result<(), FlowError> {
-        Ok(())
-    }
 }
 
 sph_core::contract!(
@@ -229,9 +219,7 @@ sph_core::contract!(
 /// ```
 pub fn conductance(name: &str, parameters: &Table) -> Result<Box<dyn Conductance>, FlowError> {
     let registry = Registry::<ConductanceEntry>::discovered()?;
-    let law = (registry.find(name)?.build)(parameters)?;
-    law.check()?;
-    Ok(law)
+    Ok((registry.find(name)?.build)(parameters)?)
 }
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
@@ -260,12 +248,6 @@ impl Conductance for HydraulicRadius {
             radius *= 2.0_f64.powf(-0.25 * throat.slip_walls as f64);
         }
         self.shape_factor * throat.fluid_area.max(0.0) * radius * radius
-    }
-
-    fn check(&self) -> Result<(), FlowError> {
-        let what = "the shape factor of the conductance \"hydraulic-radius\" is";
-        let factor = self.shape_factor;
-        Ok(require(what, factor, "positive", factor > 0.0)?)
     }
 }
 

@@ -34,29 +34,15 @@ pub struct Contact {
     /// For the law to write: moment on the first body besides that of the force, N m; its opposite
     /// acts on the second.
     pub couple: Vector,
-    pub(crate) turn: Turn,
-}
-
-/// Rotation of the contact frame since the last evaluation.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Turn {
-    /// n_old × n_new.
-    pub axis: Vector,
-    /// n_old · n_new.
-    pub cosine: f64,
-    /// θ = ½ Δt n · (ω_A + ω_B), rad.
-    pub twist: f64,
+    /// Rotation since the last evaluation: n_old × n_new, n_old · n_new, θ = ½ Δt n · (ω_A + ω_B) in rad.
+    pub(crate) turn: (Vector, f64, f64),
 }
 
 impl Contact {
     /// A tangential vector of the last evaluation, turned with the contact: from the old normal to the new
     /// one, then by θ = ½ Δt n · (ω_A + ω_B) about it. Both turns keep its length.
     pub fn carried(&self, vector: Vector) -> Vector {
-        let Turn {
-            axis,
-            cosine,
-            twist,
-        } = self.turn;
+        let (axis, cosine, twist) = self.turn;
         if cosine.is_nan() || cosine <= -0.5 {
             return Vector::zeros(); // it jumped to the other side
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::grains::{GrainError, GrainSystem, Partner, Slot, Vector};
+use crate::grains::{ContactLaw, GrainError, GrainSystem, Partner, Slot, Vector};
 use crate::sphere;
 
 /// A contact as it was at the last evaluation.
@@ -43,28 +43,27 @@ impl GrainSystem {
         match part {
             0 => Partner::Grain(second),
             part if part <= walls => Partner::Wall(part - 1),
-            part => Partner::Triangle {
-                mesh: part - 1 - walls,
-                triangle: second,
-            },
+            part => Partner::Triangle(part - 1 - walls, second),
         }
+    }
+
+    /// The law of the contacts in a part of the table.
+    pub(crate) fn law_of(&self, part: usize) -> &dyn ContactLaw {
+        let walls = self.walls.iter().map(|w| w.law);
+        let others = walls.chain(self.meshes.iter().map(|m| m.law));
+        let number = std::iter::once(0).chain(others).nth(part);
+        &*self.laws[number.unwrap_or_default()]
     }
 
     fn touch(&self, part: usize, slot: &Slot) -> Touch {
         let grain = slot.first as usize;
         let arm = self.grains.radius[grain] - 0.5 * slot.overlap;
-        let partner = self.partner(part, slot);
-        let law = match partner {
-            Partner::Grain(_) => 0,
-            Partner::Wall(wall) => self.walls[wall].law,
-            Partner::Triangle { mesh, .. } => self.meshes[mesh].law,
-        };
         let normal = slot.force.dot(&slot.normal);
         let tangential = (slot.force - slot.normal * normal).norm();
-        let limit = self.laws[law].friction() * normal.max(0.0);
+        let limit = self.law_of(part).friction() * normal.max(0.0);
         Touch {
             grain,
-            partner,
+            partner: self.partner(part, slot),
             normal: slot.normal,
             overlap: slot.overlap,
             point: self.grains.position[grain] - slot.normal * arm,
@@ -151,8 +150,7 @@ impl GrainSystem {
     /// # Errors
     /// If the box is not closed.
     pub fn section(&self, axis: usize) -> Result<f64, GrainError> {
-        let lengths = self.box_lengths();
-        let lengths = lengths.ok_or(GrainError::NoArea(2 * axis))?;
+        let lengths = self.box_lengths().ok_or(GrainError::NoArea(2 * axis))?;
         Ok(lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3])
     }
 
@@ -168,14 +166,10 @@ impl GrainSystem {
             let first = above(touch.grain);
             let second = match touch.partner {
                 Partner::Grain(other) => above(other),
-                Partner::Wall(wall) => {
-                    let wall = &self.walls[wall];
-                    match wall.normal[axis].abs() > 0.5 {
-                        true => wall.point[axis] >= at,
-                        false => first,
-                    }
+                Partner::Wall(wall) if self.walls[wall].normal[axis].abs() > 0.5 => {
+                    self.walls[wall].point[axis] >= at
                 }
-                Partner::Triangle { .. } => first,
+                _ => first,
             };
             if first != second {
                 force += if first { 1.0 } else { -1.0 } * touch.force[axis];

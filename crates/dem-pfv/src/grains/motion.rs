@@ -37,20 +37,17 @@ impl GrainSystem {
                 load - damping * load.abs() * sign(middle)
             })
         };
-        let moving = (
-            &mut g.position,
-            &mut g.velocity,
-            &mut g.spin,
-            &mut g.orientation,
-        );
+        let moving = (&mut g.position, &mut g.velocity);
+        let turning = (&mut g.spin, &mut g.orientation);
         let given = (&g.mass, &g.radius, &g.held);
         let forces = (&g.contact_force, &g.external_force);
         let torques = (&g.contact_torque, &g.external_torque);
-        moving
+        (moving, turning)
             .into_par_iter()
             .zip((given, forces, torques))
             .with_min_len(TASK)
-            .for_each(|((x, v, spin, orientation), (given, forces, torques))| {
+            .for_each(|((moving, turning), (given, forces, torques))| {
+                let ((x, v), (spin, orientation)) = (moving, turning);
                 let (&mass, &radius, &held) = given;
                 if !held {
                     let inertia = INERTIA * mass * radius * radius;

@@ -160,14 +160,9 @@ impl Grown {
     /// by Catalano 2012, ch. 2, without equations.
     ///
     /// # Errors
-    /// A box that is not closed; a target out of range; [`GrainError::NotReached`] after `most_steps`; the refusals of a
-    /// step.
-    pub fn run(
-        &self,
-        system: &mut GrainSystem,
-        safety: f64,
-        most_steps: u64,
-    ) -> Result<u64, GrainError> {
+    /// A box that is not closed; a target out of range; [`GrainError::NotReached`] after so many steps, `most`; the
+    /// refusals of a step.
+    pub fn run(&self, system: &mut GrainSystem, safety: f64, most: u64) -> Result<u64, GrainError> {
         let goal = self.stress.or(self.porosity).unwrap_or(f64::NAN);
         let (what, fine) = match self.stress {
             Some(_) => ("the stress is", goal > 0.0),
@@ -176,7 +171,7 @@ impl Grown {
         require(what, goal, "positive, a porosity below 1", fine)?;
         let mut reached = false;
         let (mut unbalanced, mut stress) = (f64::INFINITY, 0.0);
-        for made in 0..most_steps {
+        for made in 0..most {
             system.evaluate()?;
             if made % EVERY == 0 {
                 unbalanced = system.unbalanced_force();
@@ -209,7 +204,7 @@ impl Grown {
             let step = safety * system.current_limit();
             system.integrate(step)?;
         }
-        Err(GrainError::NotReached(most_steps, unbalanced, stress))
+        Err(GrainError::NotReached(most, unbalanced, stress))
     }
 }
 

@@ -38,8 +38,6 @@ pub struct LinearElastic {
     pub rolling: Option<RollingResistance>,
 }
 
-const LINEAR: &str = "linear-elastic";
-
 impl LinearElastic {
     /// Springs and friction, without dashpots or resistance to rolling.
     pub fn new(modulus: f64, stiffness_ratio: f64, friction: f64) -> Self {
@@ -54,10 +52,8 @@ impl LinearElastic {
 
     /// k_n, N/m. Source: Catalano 2012, Eq. (4.1).
     pub fn normal_stiffness(&self, radius: [f64; 2]) -> f64 {
-        let [r1, mut r2] = radius;
-        if r2.is_infinite() {
-            r2 = r1;
-        }
+        let [r1, r2] = radius;
+        let r2 = if r2.is_infinite() { r1 } else { r2 };
         2.0 * self.modulus * r1 * r2 / (r1 + r2)
     }
 }
@@ -69,7 +65,8 @@ impl ContactLaw for LinearElastic {
             ("modulus", modulus, "positive", modulus > 0.0),
             ("stiffness ratio", ratio, AT_LEAST_0, ratio >= 0.0),
         ];
-        check(LINEAR, own, self.friction, self.damping, self.rolling)
+        let shared = [self.friction, self.damping];
+        check("linear-elastic", own, shared, self.rolling)
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -143,8 +140,6 @@ pub struct HertzMindlin {
     pub rolling: Option<RollingResistance>,
 }
 
-const HERTZ: &str = "hertz-mindlin";
-
 impl HertzMindlin {
     /// Springs and friction, without dashpots or resistance to rolling.
     pub fn new(shear_modulus: f64, poisson: f64, friction: f64) -> Self {
@@ -176,7 +171,8 @@ impl ContactLaw for HertzMindlin {
             ("shear modulus", shear, "positive", shear > 0.0),
             ("Poisson's ratio", poisson, "above -1 and at most 0.5", fine),
         ];
-        check(HERTZ, own, self.friction, self.damping, self.rolling)
+        let shared = [self.friction, self.damping];
+        check("hertz-mindlin", own, shared, self.rolling)
     }
 
     fn memory(&self) -> &'static [&'static str] {
@@ -284,26 +280,20 @@ fn slide(contact: &mut Contact, normal: f64, [shear, mut total]: [Vector; 2], fr
     contact.force = contact.normal * normal + total;
 }
 
-/// A parameter of a law: name, value, valid values, and whether it is one of them.
-type Checked = (&'static str, f64, &'static str, bool);
-
-/// Checks the parameters of a law: two of its own, then those that both laws have.
+/// Checks the parameters of a law: two of its own by name, value, valid values and whether it is one of them, then
+/// those that both laws have.
 fn check(
     law: &str,
-    own: [Checked; 2],
-    friction: f64,
-    damping: f64,
+    own: [(&str, f64, &'static str, bool); 2],
+    [friction, damping]: [f64; 2],
     rolling: Option<RollingResistance>,
 ) -> Result<(), GrainError> {
     let damped = (0.0..1.0).contains(&damping);
     let mut all = Vec::from(own);
     all.push(("friction", friction, AT_LEAST_0, friction >= 0.0));
     all.push(("damping", damping, BELOW_1, damped));
-    if let Some(RollingResistance {
-        coefficient: eta,
-        stiffness: beta,
-    }) = rolling
-    {
+    if let Some(rolling) = rolling {
+        let (eta, beta) = (rolling.coefficient, rolling.stiffness);
         all.push(("rolling coefficient", eta, AT_LEAST_0, eta >= 0.0));
         all.push(("rolling stiffness", beta, "positive", beta > 0.0));
     }

@@ -3,7 +3,8 @@
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-use crate::grains::{Control, GrainError, GrainSystem, Limit, Partner, Slot, Unrest, Vector};
+use crate::error::DEEPEST;
+use crate::grains::{Control, GrainError, GrainSystem, Limit, Partner, Slot, Unrest, Vector, Wall};
 
 /// Overlap over radius from which the stiffness of the first touch is guessed.
 const FIRST_TOUCH: f64 = 1e-3;
@@ -11,8 +12,7 @@ const FIRST_TOUCH: f64 = 1e-3;
 impl GrainSystem {
     /// The value of [`GrainSystem::critical_step`], and the grain that sets it.
     pub(crate) fn critical(&self) -> Limit {
-        let Self { state, laws } = self;
-        let (g, table, walls) = (&state.grains, &state.table, &state.walls);
+        let (g, table) = (&self.grains, &self.table);
         let zero = Matrix3::zeros();
         let mut sums = vec![[zero; 2]; g.len()];
         let mut damping = 0.0_f64;
@@ -24,17 +24,11 @@ impl GrainSystem {
         };
         for part in 0..table.ends.len() {
             let slots = &table.slots[table.part(part)];
-            let (mut law, mut weight, mut piston) = (0, 2.0, None);
-            if part > walls.len() {
-                (law, weight) = (state.meshes[part - 1 - walls.len()].law, 1.0);
-            } else if part > 0 {
-                let wall = &walls[part - 1];
-                (law, weight) = (wall.law, 1.0);
-                if let Control::Piston { mass, .. } = wall.control {
-                    (weight, piston) = (2.0, Some(mass));
-                }
-            }
-            let law = &laws[law];
+            let law = self.law_of(part);
+            let wall = part.checked_sub(1).and_then(|k| self.walls.get(k));
+            let piston = wall.map(Wall::mass).filter(|mass| mass.is_finite());
+            let both_move = part == 0 || piston.is_some();
+            let weight = if both_move { 2.0 } else { 1.0 };
             let mut stiffness_of_wall = 0.0;
             for slot in slots.iter().filter(|s| s.active) {
                 let first = slot.first as usize;
@@ -63,7 +57,7 @@ impl GrainSystem {
         for (grain, [push, turn]) in sums.iter().enumerate() {
             let (radius, mass) = (g.radius[grain], g.mass[grain]);
             let inertia = g.inertia(grain);
-            let alone = laws[0].stiffness([radius; 2], FIRST_TOUCH * radius);
+            let alone = self.laws[0].stiffness([radius; 2], FIRST_TOUCH * radius);
             damping = damping.max(alone.damping);
             let arm = alone.tangential * radius * radius + alone.rolling;
             raise(largest(push) / mass + largest(turn) / inertia, grain);
@@ -117,10 +111,6 @@ impl GrainSystem {
         steps.reduce(|| f64::INFINITY, f64::min)
     }
 
-    /// Share of the smaller radius that an overlap may have in a step. Contact laws hold for overlaps that are small
-    /// beside the radius: a floor cuts 4 % of the volume off a sphere that is sunk by a quarter of its radius.
-    pub const DEEPEST: f64 = crate::error::DEEPEST;
-
     /// The first contact that is deeper than a share of the smaller radius, with the number of its part of the table.
     fn deeper(&self, share: f64) -> Option<(usize, &Slot)> {
         let radius = &self.grains.radius;
@@ -139,17 +129,13 @@ impl GrainSystem {
 
     /// Refuses a step from contacts that are too deep.
     pub(crate) fn check_depths(&self) -> Result<(), GrainError> {
-        let Some((part, slot)) = self.deeper(Self::DEEPEST) else {
+        let Some((part, slot)) = self.deeper(DEEPEST) else {
             return Ok(());
         };
         let grain = slot.first as usize;
-        Err(GrainError::TooDeep {
-            grain,
-            at: self.grains.position[grain].into(),
-            body: self.partner(part, slot),
-            overlap: slot.overlap,
-            share: slot.overlap / self.grains.radius[grain],
-        })
+        let (at, body) = (self.grains.position[grain].into(), self.partner(part, slot));
+        let share = slot.overlap / self.grains.radius[grain];
+        Err(GrainError::TooDeep(grain, at, body, slot.overlap, share))
     }
 
     pub(crate) fn check_overlaps(&mut self) -> Result<(), GrainError> {

@@ -3,8 +3,8 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::grains::{
-    Bodies, ContactLaw, Control, GrainError, Grains, Limit, MEMORY, Setup, State, Vector, View,
-    check_period, finite, positive,
+    ContactLaw, Control, GrainError, Grains, Limit, MEMORY, Setup, State, Vector, check_period,
+    finite, positive,
 };
 use crate::{BELOW_1, require};
 
@@ -49,15 +49,14 @@ impl GrainSystem {
             grain.check(number)?;
         }
         let grains = Grains::new(&setup.grains);
-        let mean = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
         let state = State {
+            skin: setup.skin.unwrap_or(0.2 * grains.mean_radius()),
             grains,
             walls: setup.walls,
             meshes: setup.meshes,
             period: setup.period,
             gravity: setup.gravity,
             damping: setup.damping,
-            skin: setup.skin.unwrap_or(0.2 * mean),
             ..State::default()
         };
         let laws = setup.laws;
@@ -129,22 +128,6 @@ impl GrainSystem {
         Ok(())
     }
 
-    fn bodies(&self) -> Bodies<'_> {
-        Bodies {
-            grains: &self.grains,
-            walls: &self.walls,
-            meshes: &self.meshes,
-            period: &self.period,
-        }
-    }
-
-    pub(crate) fn renew(&mut self) {
-        let mut table = std::mem::take(&mut self.table);
-        table.renew(self.bodies(), self.skin);
-        self.table = table;
-        self.renewals += 1;
-    }
-
     /// Finds the contacts where the grains are now and computes their forces.
     ///
     /// A second call without a motion between changes nothing.
@@ -155,26 +138,21 @@ impl GrainSystem {
         for (grain, position) in self.grains.position.iter().enumerate() {
             finite(grain, "position", position)?;
         }
-        if self.table.expired(self.bodies(), self.skin) {
+        if self.expired() {
             self.renew();
         }
         let (state, laws) = (&mut self.state, &self.laws);
-        let grains = &state.grains;
-        let (period, step) = (&state.period, state.last_step);
-        let view = View {
-            grains,
-            period,
-            step,
-        };
-        let mut parts = state.table.parts();
+        let mut table = std::mem::take(&mut state.table);
+        let mut parts = table.parts();
         if let Some(pairs) = parts.next() {
-            view.pairs(pairs, &*laws[0]);
+            state.at_grains(pairs, &*laws[0]);
         }
-        for (wall, slots) in state.walls.iter_mut().zip(parts.by_ref()) {
-            view.wall(slots, wall, &*laws[wall.law]);
+        for (number, slots) in (0..state.walls.len()).zip(parts.by_ref()) {
+            let law = &*laws[state.walls[number].law];
+            state.at_wall(slots, &state.walls[number], law);
+            let (grains, wall) = (&state.grains, &mut state.walls[number]);
             let active = slots.iter().filter(|s| s.active);
             let zero = (Vector::zeros(), 0.0);
-            let law = &laws[wall.law];
             (wall.force, wall.stiffness) = active.fold(zero, |(force, stiffness), s| {
                 let radius = [grains.radius[s.first as usize], f64::INFINITY];
                 let more = match wall.control {
@@ -184,8 +162,10 @@ impl GrainSystem {
                 (force - s.force, stiffness + more)
             });
         }
-        for (mesh, slots) in state.meshes.iter_mut().zip(parts) {
-            view.mesh(slots, mesh, &*laws[mesh.law]);
+        for (number, slots) in (0..state.meshes.len()).zip(parts) {
+            let law = &*laws[state.meshes[number].law];
+            state.at_mesh(slots, &state.meshes[number], law);
+            let (grains, mesh) = (&state.grains, &mut state.meshes[number]);
             (mesh.force, mesh.torque) = (Vector::zeros(), Vector::zeros());
             for slot in slots.iter().filter(|s| s.active) {
                 let grain = slot.first as usize;
@@ -195,6 +175,7 @@ impl GrainSystem {
                 mesh.torque += slot.torque[1] - arm.cross(&slot.force);
             }
         }
+        state.table = table;
         self.last_step = 0.0;
         self.gather();
         Ok(())
@@ -262,22 +243,6 @@ impl GrainSystem {
                 self.limit.insert(limit)
             }
         }
-    }
-
-    /// Sets how a mesh moves: velocity (m/s) and angular velocity about its centre (rad/s).
-    ///
-    /// # Errors
-    /// If there is no such mesh or a number is not finite.
-    pub fn steer_mesh(
-        &mut self,
-        mesh: usize,
-        velocity: Vector,
-        spin: Vector,
-    ) -> Result<(), GrainError> {
-        let none = || GrainError::BadMesh(mesh, 0, "there is no such mesh".into());
-        let moved = self.meshes.get_mut(mesh).ok_or_else(none)?;
-        (moved.velocity, moved.spin) = (velocity, spin);
-        moved.check(mesh)
     }
 
     /// Sets the clock to zero, as when a preparation is over. Nothing else changes.

@@ -1,12 +1,13 @@
-//! The table of neighbours: a grid of grains, pairs, grains at walls, grains at triangles, the memory of contacts.
+//! The state of a system of grains, and its table of neighbours: pairs, grains at walls and at triangles.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use sparse::Groups;
+use sph_core::bounds;
 
 use crate::grains::{Grains, MEMORY, Mesh, Period, Vector, Wall, nearest, separation};
-use crate::groups::Groups;
 
 /// Two bodies that are near each other.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
@@ -74,13 +75,42 @@ struct PreviousState {
     vertices: Vec<Vec<Vector>>,
 }
 
-/// Input of the table.
-#[derive(Clone, Copy)]
-pub(crate) struct Bodies<'a> {
-    pub grains: &'a Grains,
-    pub walls: &'a [Wall],
-    pub meshes: &'a [Mesh],
-    pub period: &'a Period,
+/// A step and the grain that sets it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub(crate) struct Limit {
+    pub step: f64,
+    pub grain: usize,
+}
+
+/// Everything a run needs to go on bit for bit, but for the contact laws: columns of the grains, walls,
+/// meshes, and the memory of contacts. For any serde format that keeps every bit of a number.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct State {
+    /// The grains; the next evaluation finds the contacts of those that were moved.
+    pub grains: Grains,
+    /// The walls.
+    pub walls: Vec<Wall>,
+    /// The meshes.
+    pub meshes: Vec<Mesh>,
+    /// Axes along which the box repeats itself.
+    pub period: Period,
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    pub(crate) damping: f64,
+    pub(crate) skin: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Motion since the last evaluation, s.
+    pub(crate) last_step: f64,
+    pub(crate) limit: Option<Limit>,
+    /// Step at which the limit is found anew.
+    pub(crate) limit_due: u64,
+    #[serde(rename = "contacts")]
+    pub(crate) table: Table,
+    /// Number of times that the lists of neighbours were made.
+    pub renewals: u64,
 }
 
 /// Grains per task when lists are made.
@@ -108,19 +138,34 @@ impl Table {
         entries.map(|&entry| (&self.slots[(entry >> 1) as usize], (entry & 1) as usize))
     }
 
+    /// Both tables are sorted, so one walk along them finds the common entries.
+    fn carry(&mut self, old: &Self) {
+        for (part, new) in self.parts().enumerate().take(old.ends.len()) {
+            let mut new = new.iter_mut().peekable();
+            for slot in old.slots[old.part(part)].iter().filter(|s| s.active) {
+                while new.next_if(|n| n.key() < slot.key()).is_some() {}
+                if let Some(n) = new.next_if(|n| n.key() == slot.key()) {
+                    *n = *slot;
+                }
+            }
+        }
+    }
+}
+
+impl State {
     /// True if something may have come near that is not in the table.
-    pub fn expired(&self, bodies: Bodies<'_>, skin: f64) -> bool {
-        let (then, grains) = (&self.then, bodies.grains);
-        if then.positions.len() != grains.len() || then.walls.len() != bodies.walls.len() {
+    pub(crate) fn expired(&self) -> bool {
+        let (then, grains) = (&self.table.then, &self.grains);
+        if then.positions.len() != grains.len() || then.walls.len() != self.walls.len() {
             return true;
         }
-        let half = 0.5 * skin;
+        let half = 0.5 * self.skin;
         let moved = |wall: &Wall, point: &Vector| (wall.point - point).dot(&wall.normal).abs();
-        let mut walls = bodies.walls.iter().zip(&then.walls);
+        let mut walls = self.walls.iter().zip(&then.walls);
         if walls.any(|(wall, point)| moved(wall, point) > half) {
             return true;
         }
-        for (mesh, old) in bodies.meshes.iter().zip(&then.vertices) {
+        for (mesh, old) in self.meshes.iter().zip(&then.vertices) {
             let mut vertices = mesh.vertices.iter().zip(old);
             if vertices.any(|(new, old)| (new - old).norm_squared() > half * half) {
                 return true;
@@ -128,7 +173,7 @@ impl Table {
         }
         let left = |i: usize| {
             let room = half - (grains.radius[i] - then.radii[i]);
-            let way = separation(&grains.position[i], &then.positions[i], bodies.period);
+            let way = separation(&grains.position[i], &then.positions[i], &self.period);
             room < 0.0 || way.norm_squared() > room * room
         };
         let all = (0..grains.len()).into_par_iter();
@@ -136,105 +181,87 @@ impl Table {
     }
 
     /// Makes the table anew; contacts keep their memory.
-    pub fn renew(&mut self, bodies: Bodies<'_>, skin: f64) {
-        let (grains, period) = (bodies.grains, bodies.period);
-        let largest = grains.largest_radius();
-        let grid = Grid::new(&grains.position, period, 2.0 * largest + skin);
-        let mut slots = pairs(grains, &grid, period, skin);
-        let mut ends = vec![slots.len()];
-        for wall in bodies.walls {
+    pub(crate) fn renew(&mut self) {
+        let (grains, skin) = (&self.grains, self.skin);
+        let reach = 2.0 * grains.largest_radius() + skin;
+        let grid = Grid::new(&grains.position, &self.period, reach);
+        let mut new = Table {
+            slots: self.pairs(&grid),
+            ..Table::default()
+        };
+        let pairs = new.slots.len();
+        new.ends.push(pairs);
+        for wall in &self.walls {
             let near = |&i: &usize| wall.distance(&grains.position[i]) < grains.radius[i] + skin;
             let near = (0..grains.len()).filter(near);
-            slots.extend(near.map(|i| Slot::new(i as u32, 0)));
-            ends.push(slots.len());
+            new.slots.extend(near.map(|i| Slot::new(i as u32, 0)));
+            new.ends.push(new.slots.len());
         }
-        for mesh in bodies.meshes {
-            slots.extend(triangles(grains, &grid, mesh, largest, skin));
-            ends.push(slots.len());
+        for mesh in &self.meshes {
+            new.slots.extend(self.triangles(&grid, mesh));
+            new.ends.push(new.slots.len());
         }
-        let old = std::mem::replace(&mut self.slots, slots);
-        let old_ends = std::mem::replace(&mut self.ends, ends);
-        self.carry(&old, &old_ends);
-        let pairs = self.part(0).end;
-        let entries = self.slots.iter().enumerate().flat_map(|(k, slot)| {
+        new.carry(&self.table);
+        let entries = new.slots.iter().enumerate().flat_map(|(k, slot)| {
             let second = (k < pairs).then_some((slot.second, 2 * k as u32 + 1));
             [Some((slot.first, 2 * k as u32)), second]
         });
-        self.entries = Groups::new(grains.len(), entries.flatten());
-        self.then = PreviousState {
+        new.entries = Groups::new(grains.len(), entries.flatten());
+        new.then = PreviousState {
             positions: grains.position.clone(),
             radii: grains.radius.clone(),
-            walls: bodies.walls.iter().map(|w| w.point).collect(),
-            vertices: bodies.meshes.iter().map(|m| m.vertices.clone()).collect(),
+            walls: self.walls.iter().map(|w| w.point).collect(),
+            vertices: self.meshes.iter().map(|m| m.vertices.clone()).collect(),
         };
+        self.table = new;
+        self.renewals += 1;
     }
 
-    /// Both tables are sorted, so one walk along them finds the common entries.
-    fn carry(&mut self, old: &[Slot], old_ends: &[usize]) {
-        let mut from = 0;
-        for (part, &to) in old_ends.iter().enumerate().take(self.ends.len()) {
-            let range = self.part(part);
-            let mut new = self.slots[range].iter_mut().peekable();
-            for slot in old[from..to].iter().filter(|s| s.active) {
-                while new.next_if(|n| n.key() < slot.key()).is_some() {}
-                if let Some(n) = new.next_if(|n| n.key() == slot.key()) {
-                    *n = *slot;
-                }
+    fn pairs(&self, grid: &Grid) -> Vec<Slot> {
+        let (grains, n) = (&self.grains, self.grains.len());
+        let task = |task: usize| {
+            let mut slots = Vec::with_capacity(8 * TASK);
+            let mut partners = Vec::new();
+            for i in task * TASK..n.min((task + 1) * TASK) {
+                let (at, radius) = (grains.position[i], grains.radius[i] + self.skin);
+                partners.clear();
+                grid.around(&at, |j| {
+                    let reach = radius + grains.radius[j as usize];
+                    let apart = || separation(&at, &grains.position[j as usize], &self.period);
+                    if j as usize > i && apart().norm_squared() < reach * reach {
+                        partners.push(j);
+                    }
+                });
+                partners.sort_unstable();
+                slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
             }
-            from = to;
-        }
+            slots
+        };
+        let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
+        tasks.collect::<Vec<_>>().concat()
     }
-}
 
-fn pairs(grains: &Grains, grid: &Grid, period: &Period, skin: f64) -> Vec<Slot> {
-    let n = grains.len();
-    let task = |task: usize| {
-        let mut slots = Vec::with_capacity(8 * TASK);
-        let mut partners = Vec::new();
-        for i in task * TASK..n.min((task + 1) * TASK) {
-            let (at, radius) = (grains.position[i], grains.radius[i] + skin);
-            partners.clear();
-            grid.around(&at, |j| {
-                let reach = radius + grains.radius[j as usize];
-                let apart = || separation(&at, &grains.position[j as usize], period);
-                if j as usize > i && apart().norm_squared() < reach * reach {
-                    partners.push(j);
+    fn triangles(&self, grid: &Grid, mesh: &Mesh) -> impl Iterator<Item = Slot> {
+        let (grains, largest) = (&self.grains, self.grains.largest_radius());
+        let found = (0..mesh.triangles.len()).into_par_iter().map(|t| {
+            let corners = mesh.corners(t);
+            let reach = Vector::repeat(largest + self.skin);
+            let low = corners[0].inf(&corners[1]).inf(&corners[2]) - reach;
+            let high = corners[0].sup(&corners[1]).sup(&corners[2]) + reach;
+            let mut near = Vec::new();
+            grid.within(&low, &high, |i| {
+                let at = &grains.position[i as usize];
+                let reach = grains.radius[i as usize] + self.skin;
+                if (nearest(at, corners) - at).norm_squared() < reach * reach {
+                    near.push((i, t as u32));
                 }
             });
-            partners.sort_unstable();
-            slots.extend(partners.iter().map(|&j| Slot::new(i as u32, j)));
-        }
-        slots
-    };
-    let tasks = (0..n.div_ceil(TASK)).into_par_iter().map(task);
-    tasks.collect::<Vec<_>>().concat()
-}
-
-fn triangles(
-    grains: &Grains,
-    grid: &Grid,
-    mesh: &Mesh,
-    largest: f64,
-    skin: f64,
-) -> impl Iterator<Item = Slot> {
-    let found = (0..mesh.triangles.len()).into_par_iter().map(|t| {
-        let corners = mesh.corners(t);
-        let reach = Vector::repeat(largest + skin);
-        let low = corners[0].inf(&corners[1]).inf(&corners[2]) - reach;
-        let high = corners[0].sup(&corners[1]).sup(&corners[2]) + reach;
-        let mut near = Vec::new();
-        grid.within(&low, &high, |i| {
-            let at = &grains.position[i as usize];
-            let reach = grains.radius[i as usize] + skin;
-            if (nearest(at, corners) - at).norm_squared() < reach * reach {
-                near.push((i, t as u32));
-            }
+            near
         });
-        near
-    });
-    let mut keys = found.collect::<Vec<_>>().concat();
-    keys.sort_unstable();
-    keys.into_iter().map(|(i, t)| Slot::new(i, t))
+        let mut keys = found.collect::<Vec<_>>().concat();
+        keys.sort_unstable();
+        keys.into_iter().map(|(i, t)| Slot::new(i, t))
+    }
 }
 
 /// Grains by cell; a cell is at least as long as the reach of a pair.
@@ -249,12 +276,8 @@ pub(crate) struct Grid {
 
 impl Grid {
     pub fn new(positions: &[Vector], period: &Period, reach: f64) -> Self {
-        let mut low = Vector::repeat(f64::INFINITY);
-        let mut high = Vector::repeat(f64::NEG_INFINITY);
-        for p in positions {
-            low = low.inf(p);
-            high = high.sup(p);
-        }
+        let points = positions.iter().map(|p| (*p).into());
+        let [mut low, mut high] = bounds(points).map(Vector::from);
         for (axis, ends) in period.iter().enumerate() {
             if let Some(ends) = ends {
                 [low[axis], high[axis]] = *ends;
@@ -270,12 +293,10 @@ impl Grid {
             }
             size *= 1.26;
         };
+        let per_length = |n: f64, length: f64| if length > 0.0 { n / length } else { 0.0 };
         let mut grid = Self {
             low,
-            rate: counts.zip_map(&(high - low), |n, length| match length > 0.0 {
-                true => n / length,
-                false => 0.0,
-            }),
+            rate: counts.zip_map(&(high - low), per_length),
             count: [counts.x as usize, counts.y as usize, counts.z as usize],
             periodic: period.map(|p| p.is_some()),
             members: Groups::default(),

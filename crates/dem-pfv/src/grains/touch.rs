@@ -2,68 +2,40 @@
 
 use rayon::prelude::*;
 
-use crate::grains::{
-    Contact, ContactLaw, Grains, Mesh, Period, Slot, Turn, Vector, Wall, nearest, separation,
-};
+use crate::grains::{Contact, ContactLaw, Mesh, Slot, State, Vector, Wall, nearest, separation};
 
 /// Slots that one call of a law answers at most.
 const BATCH: usize = 128;
 
-/// Grains as the second body of a contact sees them.
-#[derive(Clone, Copy)]
-pub(crate) struct View<'a> {
-    pub grains: &'a Grains,
-    pub period: &'a Period,
-    /// Time since the last evaluation, s.
-    pub step: f64,
-}
+/// Radius and mass of a plane and of a triangle.
+const OF_SURFACES: [f64; 2] = [f64::INFINITY; 2];
 
-/// The second body of a contact: a grain, a plane or a point of a triangle; the latter two of infinite radius and mass.
-struct Second {
-    velocity: Vector,
-    spin: Vector,
-    radius: f64,
-    mass: f64,
-}
-
-impl Second {
-    fn surface(velocity: Vector, spin: Vector) -> Self {
-        let [radius, mass] = [f64::INFINITY; 2];
-        Self {
-            velocity,
-            spin,
-            radius,
-            mass,
-        }
-    }
-}
-
-impl View<'_> {
+impl State {
     /// Forces between grains.
-    pub fn pairs(&self, slots: &mut [Slot], law: &dyn ContactLaw) {
+    pub(crate) fn at_grains(&self, slots: &mut [Slot], law: &dyn ContactLaw) {
         sweep(slots, law, |slot| self.pair(slot));
     }
 
     /// Forces at a wall.
-    pub fn wall(&self, slots: &mut [Slot], wall: &Wall, law: &dyn ContactLaw) {
+    pub(crate) fn at_wall(&self, slots: &mut [Slot], wall: &Wall, law: &dyn ContactLaw) {
         sweep(slots, law, |slot| {
             let grain = slot.first as usize;
             let gap = wall.distance(&self.grains.position[grain]) - self.grains.radius[grain];
-            let second = || Second::surface(wall.velocity, Vector::zeros());
-            (gap < 0.0).then(|| self.contact(slot, wall.normal, -gap, second()))
+            let motion = [wall.velocity, Vector::zeros()];
+            (gap < 0.0).then(|| self.contact(slot, wall.normal, -gap, motion, OF_SURFACES))
         });
     }
 
     /// Forces at a mesh.
-    pub fn mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
+    pub(crate) fn at_mesh(&self, slots: &mut [Slot], mesh: &Mesh, law: &dyn ContactLaw) {
         let groups = slots.par_chunk_by_mut(|a, b| a.first == b.first);
         groups.for_each(|group| self.at_triangles(group, mesh, law));
     }
 
     fn pair(&self, slot: &Slot) -> Option<Contact> {
         let (a, b) = (slot.first as usize, slot.second as usize);
-        let g = self.grains;
-        let apart = separation(&g.position[a], &g.position[b], self.period);
+        let g = &self.grains;
+        let apart = separation(&g.position[a], &g.position[b], &self.period);
         let reach = g.radius[a] + g.radius[b];
         let square = apart.norm_squared();
         if square >= reach * reach {
@@ -75,42 +47,42 @@ impl View<'_> {
             true => apart / distance,
             false => Vector::x(),
         };
-        let second = Second {
-            velocity: g.velocity[b],
-            spin: g.spin[b],
-            radius: g.radius[b],
-            mass: g.mass[b],
-        };
-        Some(self.contact(slot, normal, reach - distance, second))
+        let (motion, size) = ([g.velocity[b], g.spin[b]], [g.radius[b], g.mass[b]]);
+        Some(self.contact(slot, normal, reach - distance, motion, size))
     }
 
-    fn contact(&self, slot: &Slot, normal: Vector, overlap: f64, second: Second) -> Contact {
-        let (g, a) = (self.grains, slot.first as usize);
-        let radius = [g.radius[a], second.radius];
+    /// A contact with a second body by its velocity, angular velocity, radius and mass.
+    fn contact(
+        &self,
+        slot: &Slot,
+        normal: Vector,
+        overlap: f64,
+        [velocity, spin]: [Vector; 2],
+        [radius, mass]: [f64; 2],
+    ) -> Contact {
+        let (g, a) = (&self.grains, slot.first as usize);
+        let radius = [g.radius[a], radius];
         let lever = radius.map(|r| r - 0.5 * overlap);
         let mut rolling = g.spin[a] * lever[0];
         if lever[1].is_finite() {
-            rolling += second.spin * lever[1];
+            rolling += spin * lever[1];
         }
         let (memory, turn) = match slot.active {
             true => {
-                let turn = Turn {
-                    axis: slot.normal.cross(&normal),
-                    cosine: slot.normal.dot(&normal),
-                    twist: 0.5 * self.step * normal.dot(&(g.spin[a] + second.spin)),
-                };
-                (slot.memory, turn)
+                let twist = 0.5 * self.last_step * normal.dot(&(g.spin[a] + spin));
+                let (axis, cosine) = (slot.normal.cross(&normal), slot.normal.dot(&normal));
+                (slot.memory, (axis, cosine, twist))
             }
             false => Default::default(),
         };
         Contact {
             normal,
             overlap,
-            velocity: g.velocity[a] - second.velocity - rolling.cross(&normal),
-            spin: g.spin[a] - second.spin,
+            velocity: g.velocity[a] - velocity - rolling.cross(&normal),
+            spin: g.spin[a] - spin,
             radius,
-            mass: [g.mass[a], second.mass],
-            step: self.step,
+            mass: [g.mass[a], mass],
+            step: self.last_step,
             memory,
             force: Vector::zeros(),
             couple: Vector::zeros(),
@@ -148,8 +120,8 @@ impl View<'_> {
                     (b - a).cross(&(c - a)).normalize()
                 }
             };
-            let second = Second::surface(mesh.velocity_at(&point), mesh.spin);
-            self.contact(&group[k], normal, radius - distance, second)
+            let motion = [mesh.velocity_at(&point), mesh.spin];
+            self.contact(&group[k], normal, radius - distance, motion, OF_SURFACES)
         });
         let mut batch: Vec<Contact> = batch.collect();
         for slot in group.iter_mut() {

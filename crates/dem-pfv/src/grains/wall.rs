@@ -53,7 +53,8 @@ pub struct Wall {
     pub area: Option<f64>,
     /// Force besides that of the grains, N: that of a fluid.
     pub external_force: Vector,
-    pub(crate) force: Vector,
+    /// Force of the grains on it, N.
+    pub force: Vector,
     pub(crate) stiffness: f64,
     pub(crate) filtered: f64,
 }
@@ -88,11 +89,6 @@ impl Wall {
     pub fn with_law(mut self, law: usize) -> Self {
         self.law = law;
         self
-    }
-
-    /// Force of the grains on it, N.
-    pub fn force(&self) -> Vector {
-        self.force
     }
 
     /// Mass as a body, kg: infinite unless it is a piston.
@@ -145,10 +141,9 @@ impl Wall {
                 &[("stress", stress, true), ("mass", mass, mass > 0.0)]
             }
         };
-        for &(what, value, fine) in numbers {
-            if !fine || !value.is_finite() {
-                return problem(format!("has the {what} {value}"));
-            }
+        let bad = numbers.iter().find(|n| !n.2 || !n.1.is_finite());
+        if let Some((what, value, _)) = bad {
+            return problem(format!("has the {what} {value}"));
         }
         let bad = |area: &f64| !(*area > 0.0 && area.is_finite());
         let bad = self.area.filter(bad);
@@ -205,8 +200,10 @@ pub struct Mesh {
     pub centre: Vector,
     /// Number of its contact law.
     pub law: usize,
-    pub(crate) force: Vector,
-    pub(crate) torque: Vector,
+    /// Force of the grains on it, N.
+    pub force: Vector,
+    /// Moment of the grains' forces about its centre, N m.
+    pub torque: Vector,
 }
 
 impl Mesh {
@@ -217,16 +214,6 @@ impl Mesh {
             triangles,
             ..Self::default()
         }
-    }
-
-    /// Force of the grains on it, N.
-    pub fn force(&self) -> Vector {
-        self.force
-    }
-
-    /// Moment of the grains' forces about its centre, N m.
-    pub fn torque(&self) -> Vector {
-        self.torque
     }
 
     /// Velocity of the point of it that is now there, m/s.

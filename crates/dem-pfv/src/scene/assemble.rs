@@ -4,10 +4,9 @@ use crate::coupled::{
     CoupledError, CoupledSystem, FlowCondition, FlowSetup, Remeshing, WallBoundary,
 };
 use crate::grains::{GrainError, GrainSystem};
-use crate::scene::tables::{self};
 use crate::scene::{
-    BOX, DemError, FAR, Laws, Loaded, Model, Origin, Piston, Scene, control, planes_with_tables,
-    prepare, read_recorded, surfaces, throats,
+    BOX, DemError, FAR, Fluid, Laws, Loaded, Model, Origin, Piston, Scene, Wall, control, prepare,
+    throats,
 };
 
 /// A scene ready to run.
@@ -62,7 +61,7 @@ fn key_of(error: &CoupledError) -> &'static str {
 
 /// Loads that change with time.
 pub fn loads(scene: &Scene) -> impl Iterator<Item = (usize, &Piston)> {
-    planes_with_tables(scene).filter_map(|(wall, table)| {
+    scene.planes_with_tables().filter_map(|(wall, table)| {
         let piston = table.piston.as_ref()?;
         (piston.ramp != 0.0 || piston.amplitude != 0.0).then_some((wall, piston))
     })
@@ -71,7 +70,7 @@ pub fn loads(scene: &Scene) -> impl Iterator<Item = (usize, &Piston)> {
 /// Controls of the walls in the run.
 fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
     let mass: f64 = grains.grains.mass.iter().sum();
-    for (number, table) in planes_with_tables(scene) {
+    for (number, table) in scene.planes_with_tables() {
         let wall = &mut grains.walls[number];
         if table.removed {
             // Out of reach: the system keeps its walls.
@@ -81,18 +80,14 @@ fn run_controls(scene: &Scene, grains: &mut GrainSystem) {
         wall.velocity = table.velocity.unwrap_or_default().into();
         wall.control = control(table, mass, |p| p.stress);
     }
-    for (number, name) in surfaces(scene).iter().enumerate() {
-        if let Some(table) = scene.wall.get(name) {
-            let velocity = table.velocity.unwrap_or_default().into();
-            let spin = table.spin.unwrap_or_default().into();
-            // The numbers are finite: the schema saw them.
-            let _ = grains.steer_mesh(number, velocity, spin);
-        }
+    for (mesh, (_, table)) in grains.meshes.iter_mut().zip(scene.surfaces()) {
+        mesh.velocity = table.velocity.unwrap_or_default().into();
+        mesh.spin = table.spin.unwrap_or_default().into();
     }
 }
 
 /// The fluid and its conditions.
-fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
+fn flow(loaded: &Loaded, fluid: &Fluid) -> Result<FlowSetup, DemError> {
     let mut setup = FlowSetup::new(fluid.given);
     setup.remeshing = Remeshing {
         strain: Some(fluid.remesh_strain),
@@ -106,13 +101,13 @@ fn flow(loaded: &Loaded, fluid: &tables::Fluid) -> Result<FlowSetup, DemError> {
     Ok(setup)
 }
 
-fn side(loaded: &Loaded, name: &str, table: &tables::Wall) -> Result<WallBoundary, DemError> {
+fn side(loaded: &Loaded, name: &str, table: &Wall) -> Result<WallBoundary, DemError> {
     let condition = match (table.pressure, table.inflow, &table.wave) {
         (Some(pressure), ..) => FlowCondition::Pressure(pressure),
         (_, Some(speed), _) => FlowCondition::Inflow(speed),
         (.., Some(load)) => FlowCondition::Wave(*load),
         _ => match &table.recorded {
-            Some(load) => FlowCondition::Recorded(read_recorded(&loaded.source, name, load)?),
+            Some(load) => FlowCondition::Recorded(loaded.recorded(name, load)?),
             None => FlowCondition::Closed,
         },
     };

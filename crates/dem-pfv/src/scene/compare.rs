@@ -116,9 +116,17 @@ impl RunSeries<'_> {
                 quantity,
                 ..
             } => {
-                let law = read_scaling(&self.loaded.resolve(&key, file)?, geometry, quantity);
-                let law = law.map_err(|why| DemError::at(&key, why))?;
-                Ok(self.scaled(probe, &law, [geometry, quantity]))
+                let length = match self.probe(probe) {
+                    Some(Probe::RunOut { length, .. }) => *length,
+                    _ => f64::NAN,
+                };
+                let (path, aspect) = (self.loaded.resolve(&key, file)?, self.origin.top / length);
+                let wanted = scaling(&path, [geometry, quantity], aspect);
+                let wanted = wanted.map_err(|why| DemError::at(&key, why))?;
+                let rows = self.rows(probe, ALL);
+                let found = statistic(&rows, Statistic::Last);
+                let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
+                Ok(Compared::number(found, wanted, against, rows.len().min(1)))
             }
             Reference::Line { along, .. } => {
                 let [along, values] = [along, probe].map(|name| self.rows(name, window));
@@ -144,23 +152,6 @@ impl RunSeries<'_> {
                 Ok(self.beside(probe, &times, wanted, format!("`{column}` of {file}")))
             }
         }
-    }
-
-    /// A run-out beside a scaling law.
-    fn scaled(&self, probe: &str, laws: &[Scaling], [geometry, quantity]: [&str; 2]) -> Compared {
-        let length = match self.probe(probe) {
-            Some(Probe::RunOut { length, .. }) => *length,
-            _ => f64::NAN,
-        };
-        let aspect = self.origin.top / length;
-        let wanted = laws
-            .iter()
-            .find_map(|law| law.at(aspect))
-            .unwrap_or(f64::NAN);
-        let rows = self.rows(probe, ALL);
-        let found = statistic(&rows, Statistic::Last);
-        let against = format!("{quantity} = {wanted:.3} at a = {aspect:.3}, {geometry}");
-        Compared::number(found, wanted, against, rows.len().min(1))
     }
 
     /// A probe beside wanted values at times (s): root mean square over their range.
@@ -255,57 +246,34 @@ fn at(rows: &[(f64, f64)], time: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (time - t0) / (t1 - t0))
 }
 
-/// C aⁿ in a range of a.
-#[derive(Debug)]
-pub struct Scaling {
-    /// True for a bound from above, false for one from below.
-    below: bool,
-    bound: f64,
-    factor: f64,
-    exponent: f64,
-}
-
-impl Scaling {
-    /// The law at an aspect ratio, if it is in the range.
-    pub fn at(&self, aspect: f64) -> Option<f64> {
-        let fits = (aspect < self.bound) == self.below;
-        fits.then(|| self.factor * aspect.powf(self.exponent))
-    }
-}
-
-/// The rows of a geometry and a quantity in a table with the columns geometry, quantity, range (`a<2.3`), C, n (`2/3`).
-pub fn read_scaling(path: &Path, geometry: &str, quantity: &str) -> Result<Vec<Scaling>, String> {
+/// C aⁿ at an aspect ratio a by the rows of a geometry and a quantity in a table with the columns geometry, quantity,
+/// range (`a<2.3`), C, n (`2/3`); not a number beyond all ranges.
+fn scaling(path: &Path, [geometry, quantity]: [&str; 2], aspect: f64) -> Result<f64, String> {
     let text = scene_text::read_text(path)?;
     let rows = text.lines().filter(|l| !l.starts_with('#')).skip(1);
     let mut found = Vec::new();
     for line in rows {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if let [g, q, range, factor, exponent, ..] = cells.as_slice()
-            && *g == geometry
-            && *q == quantity
+            && [*g, *q] == [geometry, quantity]
         {
-            let row = row(range, factor, exponent);
-            found.push(row.ok_or_else(|| format!("cannot read the row `{line}`"))?);
+            let value = value(range, factor, exponent, aspect);
+            found.push(value.ok_or_else(|| format!("cannot read the row `{line}`"))?);
         }
     }
     match found.is_empty() {
         true => Err(format!("there is no row of `{quantity}` for `{geometry}`")),
-        false => Ok(found),
+        false => Ok(found.into_iter().flatten().next().unwrap_or(f64::NAN)),
     }
 }
 
-fn row(range: &str, factor: &str, exponent: &str) -> Option<Scaling> {
-    let (below, bound) = match (range.strip_prefix("a<"), range.strip_prefix("a>")) {
-        (Some(bound), _) => (true, bound),
-        (_, Some(bound)) => (false, bound),
-        _ => return None,
-    };
-    Some(Scaling {
-        below,
-        bound: bound.parse().ok()?,
-        factor: factor.parse().ok()?,
-        exponent: fraction(exponent)?,
-    })
+/// The law of a row at an aspect ratio, if it is in the range; none of a row that cannot be read.
+fn value(range: &str, factor: &str, exponent: &str, aspect: f64) -> Option<Option<f64>> {
+    let below = range.strip_prefix("a<");
+    let bound: f64 = below.or_else(|| range.strip_prefix("a>"))?.parse().ok()?;
+    let (factor, exponent): (f64, f64) = (factor.parse().ok()?, fraction(exponent)?);
+    let fits = (aspect < bound) == below.is_some();
+    Some(fits.then(|| factor * aspect.powf(exponent)))
 }
 
 /// `0.65` or `2/3`.
@@ -326,11 +294,10 @@ mod tests {
         let path = folder.path().join("laws.csv");
         let text = "# a table\ngeometry,quantity,range,C,n,note\nchannel,run-out,a<2.3,1.2,1,x\nchannel,run-out,a>2.3,1.9,2/3,y\n";
         std::fs::write(&path, text).unwrap();
-        let laws = read_scaling(&path, "channel", "run-out").unwrap();
-        let at = |aspect| laws.iter().find_map(|law| law.at(aspect)).unwrap();
+        let at = |aspect| scaling(&path, ["channel", "run-out"], aspect).unwrap();
         assert!((at(1.0) - 1.2).abs() < 1e-12);
         assert!((at(8.0) - 7.6).abs() < 1e-12);
-        let none = read_scaling(&path, "round", "run-out").unwrap_err();
+        let none = scaling(&path, ["round", "run-out"], 1.0).unwrap_err();
         assert!(none.contains("no row"));
     }
 }

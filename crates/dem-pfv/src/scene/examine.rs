@@ -6,10 +6,10 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use sph_core::bounds;
 
+use crate::error::DEEPEST;
 use crate::grains::{Grain, GrainSystem, Setup};
 use crate::scene::{
-    BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, planes, setup,
-    surfaces, volume,
+    BOX, DemError, Fluid, Laws, Loaded, POURED, Plugins, Scene, from_file, headings, setup, volume,
 };
 
 /// Data of a scene before it runs.
@@ -61,8 +61,8 @@ pub fn examine(loaded: &Loaded) -> Result<Examination, DemError> {
         method: "grains",
         grains: count(scene).or(scene.start.file.as_ref().map(|_| estimate.grains)),
         start: start(scene),
-        walls: planes(scene),
-        surfaces: surfaces(scene),
+        walls: scene.planes(),
+        surfaces: scene.surfaces().map(|(name, _)| name.clone()).collect(),
         coupled,
         plugins: plugins(scene),
         columns: headings(scene),
@@ -175,14 +175,10 @@ fn stages(fluid: Option<&Fluid>) -> Vec<&'static str> {
 }
 
 fn limits(coupled: bool) -> [&'static str; 2] {
-    let stable = match coupled {
-        false => "contacts: Δt < 2/ω, ω a bound from the stiffness of all contacts of a grain",
-        true => {
-            "contacts and drag: λ Δt/2 + ω² Δt²/4 < 1, λ the largest eigenvalue of the drag by power iterations"
-        }
-    };
+    let contacts = "contacts: Δt < 2/ω, ω a bound from the stiffness of all contacts of a grain";
+    let drag = "contacts and drag: λ Δt/2 + ω² Δt²/4 < 1, λ the largest eigenvalue of the drag by power iterations";
     let motion = "motion: no grain goes further than a tenth of its radius in a step";
-    [stable, motion]
+    [if coupled { drag } else { contacts }, motion]
 }
 
 fn derived(scene: &Scene) -> Vec<(&'static str, f64, &'static str)> {
@@ -245,12 +241,8 @@ pub fn foreseen(loaded: &Loaded, count: Option<usize>) -> Result<(Cost, Vec<Stri
         );
         return Err(DemError::at("run.end", message));
     }
-    let steps = (end / step).ceil();
-    let most = scene
-        .run
-        .max_steps
-        .map_or(f64::INFINITY, |most| most as f64);
-    let steps = steps.min(most);
+    let most = scene.run.max_steps.map_or(f64::INFINITY, |n| n as f64);
+    let steps = (end / step).ceil().min(most);
     let seconds = SECONDS * grains as f64 * steps;
     let days = seconds / 86400.0;
     let remark = format!(
@@ -305,8 +297,8 @@ fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
     let setup = setup(loaded, Vec::new(), Laws::from_scene(scene)?)?;
     let fluid = scene.fluid.as_ref().map_or(0.0, |f| f.given.density);
     let mass = (scene.grains.density - fluid) * volume(&[radius]);
-    let deepest = GrainSystem::DEEPEST * radius;
-    for (wall, name) in setup.walls.iter().zip(planes(scene)) {
+    let deepest = DEEPEST * radius;
+    for (wall, name) in setup.walls.iter().zip(scene.planes()) {
         let weight = -mass * setup.gravity.dot(&wall.normal);
         let law = &setup.laws[wall.law];
         let parts = 64;
@@ -317,7 +309,7 @@ fn carried(loaded: &Loaded, radius: f64) -> Result<(), DemError> {
             let message = format!(
                 "a grain of {radius} m sinks into the wall `{name}` by more than {} of its radius under its weight of \
                  {weight:.3e} N: the contact law needs {:.1} times the `modulus`",
-                GrainSystem::DEEPEST,
+                DEEPEST,
                 weight / (mean * deepest)
             );
             return Err(DemError::at(law_of(scene, &name), message));

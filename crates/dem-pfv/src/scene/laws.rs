@@ -34,12 +34,8 @@ pub struct Laws {
     pub of_walls: BTreeMap<String, usize>,
 }
 
-/// The only plugin of a table, built and checked.
-fn chosen<E: Makes<3>, R: ToString>(
-    plugins: &Plugins,
-    path: &str,
-    check: impl Fn(&E::Made) -> Result<(), R>,
-) -> Result<Option<Box<E::Made>>, DemError> {
+/// The only plugin of a table.
+fn chosen<E: Makes<3>>(plugins: &Plugins, path: &str) -> Result<Option<Box<E::Made>>, DemError> {
     let Some((name, table)) = plugins.first_key_value() else {
         return Ok(None);
     };
@@ -54,19 +50,22 @@ fn chosen<E: Makes<3>, R: ToString>(
         kind: E::KIND.name,
         name: name.clone(),
         table: table.clone(),
-        path: inside.clone(),
         name_path: inside.clone(),
+        path: inside,
     };
     let refused = |e: RegistryError| DemError::Scene(choice.scene_problems(&e));
     let registry = Registry::<E>::discovered().map_err(refused)?;
     let made = registry.find(name).and_then(|entry| entry.make(table));
-    let made = made.map_err(refused)?;
-    check(&made).map_err(|e| DemError::at(inside, e))?;
-    Ok(Some(made))
+    Ok(Some(made.map_err(refused)?))
 }
 
 fn contact(plugins: &Plugins, path: &str) -> Result<Option<Box<dyn ContactLaw>>, DemError> {
-    chosen::<ContactLawEntry, _>(plugins, path, |law| law.check())
+    let law = chosen::<ContactLawEntry>(plugins, path)?;
+    for (law, name) in law.iter().zip(plugins.keys()) {
+        let checked = law.check();
+        checked.map_err(|e| DemError::at(format!("{path}.{name}"), e))?;
+    }
+    Ok(law)
 }
 
 impl Laws {
@@ -120,6 +119,6 @@ impl Laws {
 pub fn throats(scene: &Scene) -> Result<Box<dyn Conductance>, DemError> {
     let none = Plugins::new();
     let given = scene.fluid.as_ref().map_or(&none, |f| &f.conductance);
-    let law = chosen::<ConductanceEntry, _>(given, "fluid.conductance", |law| law.check())?;
+    let law = chosen::<ConductanceEntry>(given, "fluid.conductance")?;
     Ok(law.unwrap_or_else(|| Box::new(HydraulicRadius::default())))
 }

@@ -6,10 +6,8 @@ use std::ops::Range;
 use nalgebra::Matrix3;
 use sph_core::bounds;
 
-use crate::grains::{GrainSystem, Vector, Wall};
-use crate::scene::{
-    Model, Origin, Probe, Scene, displacements, periodic, planes, strain_deviators,
-};
+use crate::grains::{GrainSystem, Vector};
+use crate::scene::{Box, Model, Origin, Probe, Scene, displacements, strain_deviators};
 use crate::sphere;
 
 /// Unit of a probe's values.
@@ -26,53 +24,36 @@ pub fn unit(probe: &Probe) -> &'static str {
     }
 }
 
-/// Present value of a probe; not a number where there is nothing to measure.
-pub fn value(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> f64 {
-    measured(probe, scene, model, origin).unwrap_or(f64::NAN)
-}
-
-fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Option<f64> {
+/// Present value of a probe; none where there is nothing to measure.
+fn value(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Option<f64> {
     let grains = model.grains();
-    let wall = |name: &str| {
-        let number = planes(scene).iter().position(|p| p == name)?;
-        Some((number, grains.walls.get(number)?))
-    };
+    let wall = |name: &str| scene.planes().iter().position(|p| p == name);
+    let (axis, [from, to]) = probe.layer().unwrap_or_default();
     match probe {
-        Probe::Stress { wall: name } => grains.wall_stress(wall(name)?.0).ok(),
+        Probe::Stress { wall: name } => grains.wall_stress(wall(name)?).ok(),
         Probe::Borne { wall: name } => {
-            let weight = buoyant_weight(model);
-            let wall: &Wall = wall(name)?.1;
-            (weight > 0.0).then(|| -wall.force().dot(&wall.normal) / weight)
+            let (weight, wall) = (buoyant_weight(model), grains.walls.get(wall(name)?)?);
+            (weight > 0.0).then(|| -wall.force.dot(&wall.normal) / weight)
         }
         Probe::Carried {} => {
             let (wet, weight) = (model.wet()?, buoyant_weight(model));
             let up = -grains.gravity.normalize();
             (weight > 0.0).then(|| wet.drag().dot(&up) / weight)
         }
-        Probe::Pressure {
-            axis,
-            from,
-            to,
-            over,
-        } => {
-            let pressure = model.wet()?.layer_pressure(axis.number(), *from, *to)?;
+        Probe::Pressure { over, .. } => {
+            let pressure = model.wet()?.layer_pressure(axis, from, to)?;
             Some(pressure / over.unwrap_or(1.0))
         }
-        Probe::Gradient {
-            axis,
-            from,
-            to,
-            between,
-        } => {
-            let [left, right] = between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-            gradient(model, axis.number(), [*from, *to], [left, right])
+        Probe::Gradient { between, .. } => {
+            let between = between.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+            gradient(model, axis, [from, to], between)
         }
         Probe::EffectiveStress { axis, at } => grains.effective_stress(axis.number(), *at).ok(),
-        Probe::Porosity { axis, from, to } => porosity(grains, axis.number(), *from, *to),
+        Probe::Porosity { .. } => porosity(grains, axis, from, to),
         Probe::Top {} => Some(grains.highest()),
-        Probe::Level { axis, from, to } => {
+        Probe::Level { .. } => {
             let room = scene.r#box.as_ref()?;
-            level(grains, [room.low, room.high], axis.number(), [*from, *to])
+            level(grains, [room.low, room.high], axis, [from, to])
         }
         Probe::Settlement {} => {
             let heights = displacements(grains, origin);
@@ -91,7 +72,7 @@ fn measured(probe: &Probe, scene: &Scene, model: &Model, origin: &Origin) -> Opt
             let (sum, count) = moved.fold((0.0, 0), |(s, n), (u, _)| (s + u[axis.number()], n + 1));
             (count > 0).then(|| sum / f64::from(count))
         }
-        Probe::Flux { wall: name } => model.wet()?.inflow(wall(name)?.0),
+        Probe::Flux { wall: name } => model.wet()?.inflow(wall(name)?),
         Probe::Permeability { axis } => {
             let wet = model.wet()?;
             Some(wet.setup().fluid.viscosity * wet.mobility(axis.number()).ok()?)
@@ -113,7 +94,10 @@ fn packing(probe: &Probe, grains: &GrainSystem, origin: &Origin) -> Option<f64> 
         Probe::VolumetricStrain {} => (0..3).map(stretch).sum(),
         Probe::Deviator { axis } => deviator(grains, axis.number()),
         Probe::MeanStress {} => grains.mean_stress().ok(),
-        Probe::K0 { axis, from, to } => pressure_at_rest(grains, axis.number(), *from..*to),
+        Probe::K0 { .. } => {
+            let (axis, [from, to]) = probe.layer()?;
+            pressure_at_rest(grains, axis, from..to)
+        }
         Probe::Sliding {} => grains.sliding_share(),
         Probe::StrainDeviator {} => {
             let all = strain_deviators(grains, origin);
@@ -174,8 +158,7 @@ fn cap_volume(radius: f64, up: f64) -> f64 {
 
 /// Porosity between two planes across an axis of a closed box.
 fn porosity(grains: &GrainSystem, axis: usize, from: f64, to: f64) -> Option<f64> {
-    let lengths = grains.box_lengths()?;
-    let area = lengths[(axis + 1) % 3] * lengths[(axis + 2) % 3];
+    let area = grains.section(axis).ok()?;
     let all = &grains.grains;
     let below = |x: &Vector, r: f64, at: f64| cap_volume(r, at - x[axis]);
     let parts = all.position.iter().zip(&all.radius);
@@ -230,7 +213,7 @@ static COMMON: [Common; 8] = [
         m.grains().porosity().unwrap_or(f64::NAN)
     }),
     ("meshes", "", |m, _| {
-        m.wet().map_or(0.0, |w| w.meshes() as f64)
+        m.wet().map_or(0.0, |w| w.meshes as f64)
     }),
 ];
 
@@ -247,10 +230,8 @@ fn common(scene: &Scene) -> impl Iterator<Item = &'static Common> {
 /// True if the box has six walls or periodic ends all the time.
 fn closed(scene: &Scene) -> bool {
     let removed = scene.wall.values().any(|w| w.removed);
-    let Some(given) = &scene.r#box else {
-        return false;
-    };
-    !removed && (given.open.is_empty() || (0..3).all(|axis| periodic(scene, axis)))
+    let whole = |b: &Box| b.open.is_empty() || (0..3).all(|axis| scene.periodic(axis));
+    !removed && scene.r#box.as_ref().is_some_and(whole)
 }
 
 /// Names and units of all columns, in their order.
@@ -265,7 +246,7 @@ pub fn headings(scene: &Scene) -> Vec<(String, String)> {
 pub fn row(scene: &Scene, model: &Model, origin: &Origin, dt: f64) -> Vec<f64> {
     let own = common(scene).map(|(_, _, value)| value(model, dt));
     let probes = scene.probe.values();
-    let probes = probes.map(|p| value(p, scene, model, origin));
+    let probes = probes.map(|p| value(p, scene, model, origin).unwrap_or(f64::NAN));
     own.chain(probes).collect()
 }
 

@@ -1,15 +1,16 @@
-//! The system of a scene, grains alone or in a fluid, and its checkpoint.
+//! The system of a scene, grains alone or in a fluid, the reference of its measurements, and its checkpoint.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
-use sph_run::{RunCounters, SavedState, save_state};
+use sph_run::RunCounters;
 
-use crate::coupled::{CoupledError, CoupledSystem};
+use crate::coupled::{CoupledError, CoupledSystem, Terzaghi};
 use crate::flow::Conductance;
-use crate::grains::{ContactLaw, Control, GrainSystem};
-use crate::scene::{DemError, Failure, Origin, Piston};
+use crate::grains::{ContactLaw, Control, GrainSystem, Vector};
+use crate::scene::{Failure, Piston, Scene};
+use crate::triangulation::{Cell, Sphere, Triangulation, Vertex};
 
 /// Share of its radius that a grain may go in a step: a tenth of it is the overlap that a start may have.
 const MOTION_SHARE: f64 = 0.1;
@@ -31,22 +32,12 @@ pub enum Saved {
     Wet(Box<crate::coupled::State>),
 }
 
-/// Length of a step, s, and its limiter.
-type MadeStep = (f64, &'static str);
-
 impl Model {
     /// The grains.
     pub fn grains(&self) -> &GrainSystem {
         match self {
             Self::Dry(system) => system,
             Self::Wet(system) => system.grains(),
-        }
-    }
-
-    fn grains_mut(&mut self) -> &mut GrainSystem {
-        match self {
-            Self::Dry(system) => system,
-            Self::Wet(system) => system.grains_mut(),
         }
     }
 
@@ -58,18 +49,15 @@ impl Model {
         }
     }
 
-    /// Makes every step measure the flow through walls, if there is a fluid.
-    pub fn measure_inflow(&mut self) {
-        if let Self::Wet(system) = self {
-            system.measure_inflow();
-        }
-    }
-
     /// Sets the loads of the time that is now: numbers of walls and their pistons.
     pub fn apply<'a>(&mut self, loads: impl Iterator<Item = (usize, &'a Piston)>) {
         for (wall, piston) in loads {
-            let stress = piston.stress_at(self.grains().time);
-            if let Some(wall) = self.grains_mut().walls.get_mut(wall)
+            let grains = match self {
+                Self::Dry(system) => system,
+                Self::Wet(system) => system.grains_mut(),
+            };
+            let stress = piston.stress_at(grains.time);
+            if let Some(wall) = grains.walls.get_mut(wall)
                 && let Control::Piston { mass, .. } = wall.control
             {
                 wall.control = Control::Piston { stress, mass };
@@ -81,12 +69,12 @@ impl Model {
     ///
     /// # Errors
     /// The failure, with the grain, the wall or the cell.
-    pub fn advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, Box<Failure>> {
+    pub fn advance(&mut self, safety: f64, end: f64) -> Result<(f64, &'static str), Box<Failure>> {
         let made = self.try_advance(safety, end);
         made.map_err(|error| Box::new(self.failure(error)))
     }
 
-    fn try_advance(&mut self, safety: f64, end: f64) -> Result<MadeStep, CoupledError> {
+    fn try_advance(&mut self, safety: f64, end: f64) -> Result<(f64, &'static str), CoupledError> {
         let left = (end - self.grains().time).max(0.0);
         let (stable, of) = match self {
             Self::Dry(system) => (system.current_limit(), "contacts"),
@@ -152,6 +140,73 @@ impl Model {
     }
 }
 
+/// The state at the start of the run, and the measurements before it.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Origin {
+    /// Lengths of the box, m, if it is closed.
+    pub lengths: Option<[f64; 3]>,
+    /// Centres, m.
+    pub positions: Vec<Vector>,
+    /// Highest point of a grain, m.
+    pub top: f64,
+    /// Mean diameter d₅₀, m.
+    pub diameter: f64,
+    /// Load of the oedometer, Pa.
+    pub load: Option<f64>,
+    /// Strain under that load, dry and slow.
+    pub dry_strain: Option<f64>,
+    /// Mobility K = κ/µ along z, m²/(Pa s).
+    pub mobility: Option<f64>,
+    /// Tetrahedra of four grains, once asked for.
+    #[serde(skip)]
+    tetrahedra: OnceLock<Vec<[usize; 4]>>,
+}
+
+impl Origin {
+    /// Of grains that are ready.
+    pub fn new(scene: &Scene, grains: &GrainSystem) -> Self {
+        let all = &grains.grains;
+        let test = scene.oedometer.as_ref();
+        let piston = test.and_then(|t| scene.wall.get(&t.wall)?.piston.as_ref());
+        Self {
+            lengths: grains.box_lengths(),
+            positions: all.position.clone(),
+            top: grains.highest(),
+            diameter: 2.0 * all.mean_radius(),
+            load: piston.map(|p| p.stress - p.prepared.unwrap_or(p.stress)),
+            ..Self::default()
+        }
+    }
+
+    /// Tetrahedra of grains with these radii (m) in their regular triangulation at the start; empty without a triangulation.
+    pub fn tetrahedra(&self, radii: &[f64]) -> &[[usize; 4]] {
+        self.tetrahedra.get_or_init(|| {
+            let spheres = self.positions.iter().zip(radii);
+            let spheres: Vec<_> = spheres.map(|(x, r)| Sphere::new((*x).into(), *r)).collect();
+            let cells = Triangulation::of_spheres(&spheres).map(|mesh| mesh.cells);
+            let corners = |cell: &Cell| {
+                let [a, b, c, d] = cell.vertices().map(Vertex::sphere);
+                Some([a?, b?, c?, d?])
+            };
+            let cells = cells.unwrap_or_default();
+            cells.iter().filter_map(corners).collect()
+        })
+    }
+
+    /// C_v = K Δσ / ε, m²/s.
+    pub fn consolidation(&self) -> Option<f64> {
+        Some(self.mobility? * self.load? / self.dry_strain?)
+    }
+
+    /// Consolidation from this state, drained at top and bottom; not a number without an oedometer.
+    pub fn terzaghi(&self) -> Terzaghi {
+        Terzaghi {
+            coefficient: self.consolidation().unwrap_or(f64::NAN),
+            drainage: self.lengths.map_or(f64::NAN, |l| 0.5 * l[2]),
+        }
+    }
+}
+
 /// Progress of a run.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Progress {
@@ -175,42 +230,4 @@ pub struct CheckpointState {
     pub origin: Origin,
     /// Its progress.
     pub progress: Progress,
-}
-
-/// Writes a checkpoint; `scene` identifies the scene for a resume.
-pub fn save_checkpoint(
-    mut kept: CheckpointState,
-    scene: &str,
-    path: &Path,
-) -> Result<(), DemError> {
-    let meta = serde_json::json!({
-        "method": "grains",
-        "scene": scene,
-        "wall_seconds": std::mem::take(&mut kept.progress.books.wall_seconds),
-        "preparation_seconds": kept.progress.preparation_seconds,
-    });
-    Ok(save_state(path, meta, &kept)?)
-}
-
-/// Reads a checkpoint; with `changed` also one of another scene.
-pub fn load_checkpoint(
-    scene: &str,
-    changed: bool,
-    path: &Path,
-) -> Result<CheckpointState, DemError> {
-    let saved = SavedState::load(path)?;
-    let refused = |why: &str| DemError::Resume(format!("{}: {why}", path.display()));
-    if saved.meta["method"] != "grains" {
-        return Err(refused("it is the checkpoint of a scene of particles"));
-    }
-    if saved.meta["scene"] != scene && !changed {
-        return Err(refused(
-            "the scene has changed since; --changed goes on all the same, or start without --resume",
-        ));
-    }
-    let mut kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
-    let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
-    kept.progress.books.wall_seconds = seconds("wall_seconds");
-    kept.progress.preparation_seconds = seconds("preparation_seconds");
-    Ok(kept)
 }

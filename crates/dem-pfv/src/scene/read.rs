@@ -45,7 +45,7 @@ pub fn read(source: Source) -> Result<Loaded, (Source, Vec<Diagnostic>)> {
 fn loaded(source: &Source) -> Result<(Scene, toml::Table), Vec<Diagnostic>> {
     let keyed = |problems: Vec<SceneProblem>| source.diagnose(&problems);
     let mut value = Value::Table(source.table()?);
-    conform(&mut value, &of_scene()).map_err(keyed)?;
+    conform(&mut value, &schema_of::<Scene>()).map_err(keyed)?;
     let unread = |e: toml::de::Error| keyed(vec![SceneProblem::new("", e.message())]);
     let scene: Scene = value.clone().try_into().map_err(unread)?;
     let table = value.as_table().cloned().unwrap_or_default();
@@ -68,6 +68,46 @@ impl Loaded {
         path.map_err(|e| DemError::at(key, e))
     }
 
+    /// The load of a wall, from its file.
+    ///
+    /// # Errors
+    /// A file that is not there, holds no such columns, or does not reach as far as the run starts.
+    pub(crate) fn recorded(&self, wall: &str, load: &RecordedLoad) -> Result<Recorded, DemError> {
+        let key = |name: &str| format!("wall.{wall}.recorded.{name}");
+        let at = |name: &str, why: String| DemError::at(key(name), why);
+        if load.columns.len() != load.places.len() {
+            let [columns, places] = [load.columns.len(), load.places.len()];
+            return Err(at(
+                "columns",
+                format!("{columns} columns for {places} places"),
+            ));
+        }
+        let path = self.resolve(&key("file"), &load.file)?;
+        let table = read_table(&path).map_err(|e| at("file", e.to_string()))?;
+        let times = column(&table, "time", "s").map_err(|e| at("file", e))?;
+        let columns = load.columns.iter().map(|name| column(&table, name, "Pa"));
+        let columns: Result<Vec<_>, _> = columns.collect();
+        let columns = columns.map_err(|e| at("columns", e))?;
+        let rows = 0..times.len();
+        let pressures = rows.flat_map(|row| columns.iter().map(move |c| c[row] - load.less));
+        let recorded = Recorded {
+            axis: load.axis,
+            places: load.places.clone(),
+            times: times.iter().map(|t| t - load.start).collect(),
+            pressures: pressures.collect(),
+        };
+        if let Some(problem) = recorded.problem() {
+            return Err(DemError::at(format!("wall.{wall}.recorded"), problem));
+        }
+        match recorded.times.last() {
+            Some(last) if *last > 0.0 => Ok(recorded),
+            _ => Err(at(
+                "start",
+                format!("the table has no row after {} s", load.start),
+            )),
+        }
+    }
+
     /// Checks that every file of the scene exists, and that those with loads hold the columns of the scene.
     ///
     /// # Errors
@@ -83,7 +123,7 @@ impl Loaded {
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();
         for (name, wall) in self.scene.wall.iter().filter(|_| whole) {
-            let read = |load| read_recorded(&self.source, name, load).err();
+            let read = |load| self.recorded(name, load).err();
             match wall.recorded.as_ref().and_then(read) {
                 Some(DemError::Scene(found)) => problems.extend(found),
                 Some(other) => return Err(other),
@@ -95,11 +135,6 @@ impl Loaded {
             false => Err(DemError::Scene(problems)),
         }
     }
-}
-
-/// The schema of the scene's own keys; tables of plugins are open in it.
-pub(crate) fn of_scene() -> Json {
-    schema_of::<Scene>()
 }
 
 /// Tables with one plugin at most, and the kind of it.
@@ -114,7 +149,7 @@ const PLUGINS: [(&str, &str); 6] = [
 
 /// The schema for editors, with the plugins of this binary. Numbers may also be strings with a unit.
 pub fn editor_schema() -> Json {
-    let (mut root, mut shared) = (of_scene(), Map::new());
+    let (mut root, mut shared) = (schema_of::<Scene>(), Map::new());
     for (place, kind) in PLUGINS {
         if let (Some(place), Some(kind)) = (root.pointer_mut(place), kind_of(kind)) {
             place["maxProperties"] = json!(1);
@@ -124,55 +159,16 @@ pub fn editor_schema() -> Json {
     editors::finished(root, "Scene of grains", shared)
 }
 
-/// The load of a wall, from its file.
-///
-/// # Errors
-/// A file that is not there, holds no such columns, or does not reach as far as the run starts.
-pub fn read_recorded(
-    source: &Source,
-    wall: &str,
-    load: &RecordedLoad,
-) -> Result<Recorded, DemError> {
-    let key = |name: &str| format!("wall.{wall}.recorded.{name}");
-    if load.columns.len() != load.places.len() {
-        let counts = [load.columns.len(), load.places.len()];
-        let message = format!("{} columns for {} places", counts[0], counts[1]);
-        return Err(DemError::at(key("columns"), message));
-    }
-    let path = source.resolve(&key("file"), &load.file);
-    let path = path.map_err(|e| DemError::at(key("file"), e))?;
-    let table = read_table(&path).map_err(|e| DemError::at(key("file"), e))?;
-    let times = column(&table, "time", "s").map_err(|e| DemError::at(key("file"), e))?;
-    let columns = load.columns.iter().map(|name| column(&table, name, "Pa"));
-    let columns: Result<Vec<_>, _> = columns.collect();
-    let columns = columns.map_err(|e| DemError::at(key("columns"), e))?;
-    let rows = 0..times.len();
-    let pressures = rows.flat_map(|row| columns.iter().map(move |c| c[row] - load.less));
-    let recorded = Recorded {
-        axis: load.axis,
-        places: load.places.clone(),
-        times: times.iter().map(|t| t - load.start).collect(),
-        pressures: pressures.collect(),
-    };
-    if let Some(problem) = recorded.problem() {
-        return Err(DemError::at(format!("wall.{wall}.recorded"), problem));
-    }
-    match recorded.times.last() {
-        Some(last) if *last > 0.0 => Ok(recorded),
-        _ => {
-            let message = format!("the table has no row after {} s", load.start);
-            Err(DemError::at(key("start"), message))
-        }
-    }
-}
-
 /// A column in SI; its head may have a unit.
 fn column(table: &Table, name: &str, alike: &str) -> Result<Vec<f64>, String> {
     let names = table.columns.iter().map(|c| c.name.as_str());
-    let near = || suggestion(name, names);
-    let values = table
-        .column(name)
-        .ok_or_else(|| format!("the table has no column `{name}`{}", near()))?;
+    let absent = || {
+        format!(
+            "the table has no column `{name}`{}",
+            suggestion(name, names)
+        )
+    };
+    let values = table.column(name).ok_or_else(absent)?;
     let head = table.columns.iter().find(|c| c.name == name);
     let unit = head.map_or("", |c| c.unit.as_str());
     let factor = match unit {

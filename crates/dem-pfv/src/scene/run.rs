@@ -1,5 +1,6 @@
 //! Grains as a model that is run.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -8,16 +9,15 @@ use scene_text::{Diagnostic, SceneProblem, Source};
 use serde_json::{Value as Json, json};
 use sph_io::IoError;
 use sph_run::{
-    BAD_STATE, BAD_STATE_PICTURE, Ended, Frames, Identity, Method, ModelTime, Outlay, RunCounters,
-    RunOptions, SERIES, Schedule, Start, Status, Subject, Watch, unusable,
+    BAD_STATE, BAD_STATE_PICTURE, Ended, Frames, Identity, Method, Outlay, RunCounters, RunOptions,
+    SERIES, SavedState, Schedule, Start, Status, Subject, Watch, save_state, unusable,
 };
 use toml::Table;
 
 use crate::coupled::CoupledError;
 use crate::scene::{
     Assembled, CheckpointState, DemError, Failure, Laws, Loaded, Model, Probe, Progress, Summary,
-    assemble, compare, examine, frames, headings, load_checkpoint, loads, named, read, row,
-    save_checkpoint, throats, values,
+    assemble, compare, examine, frames, headings, loads, named, read, row, throats, values,
 };
 
 /// Identity of the checkpoints of a scene.
@@ -56,7 +56,20 @@ pub fn run(
         folders: output.picture.iter().take(1).map(|_| "pictures").collect(),
     };
     pool.install(|| {
-        let mut running = Running::new(loaded, options, observer)?;
+        let mut running = Running {
+            loaded,
+            options,
+            parts: None,
+            progress: Progress::default(),
+            limiter: "none",
+        };
+        if options.start == Start::Afresh {
+            let begun = Instant::now();
+            running.parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
+            let seconds = begun.elapsed().as_secs_f64();
+            running.progress.preparation_seconds = seconds;
+            running.progress.books.wall_seconds = seconds;
+        }
         let summary = sph_run::run(&mut running, options, &schedule, outlay, observer)?;
         summary.ok_or_else(|| DemError::Resume("there is no summary of the run".into()))
     })
@@ -72,37 +85,27 @@ struct Running<'a> {
     limiter: &'static str,
 }
 
-impl<'a> Running<'a> {
-    fn new(
-        loaded: &'a Loaded,
-        options: &'a RunOptions,
-        observer: &mut Watch<'_>,
-    ) -> Result<Self, DemError> {
-        let (mut parts, mut progress) = (None, Progress::default());
-        if options.start == Start::Afresh {
-            let begun = Instant::now();
-            parts = Some(assemble(loaded, &mut |text| observer.message(text))?);
-            progress.preparation_seconds = begun.elapsed().as_secs_f64();
-            progress.books.wall_seconds = progress.preparation_seconds;
-        }
-        Ok(Running {
-            loaded,
-            options,
-            parts,
-            progress,
-            limiter: "none",
-        })
-    }
-
+impl Running<'_> {
     fn parts(&self) -> Result<&Assembled, DemError> {
         let none = || DemError::Resume("there are no grains yet".into());
         self.parts.as_ref().ok_or_else(none)
     }
 
-    /// Grains of a checkpoint, with the laws of the scene.
+    /// Grains of a checkpoint, with the laws of the scene; with `changed` also one of another scene.
     fn resume(&mut self, changed: bool, own: &Path) -> Result<(), DemError> {
         let scene = &self.loaded.scene;
-        let kept = load_checkpoint(&self.options.identity.scene, changed, own)?;
+        let saved = SavedState::load(own)?;
+        let refused = |why: &str| DemError::Resume(format!("{}: {why}", own.display()));
+        if saved.meta["method"] != "grains" {
+            return Err(refused("it is the checkpoint of a scene of particles"));
+        }
+        if saved.meta["scene"] != self.options.identity.scene && !changed {
+            return Err(refused(
+                "the scene has changed since; --changed goes on all the same, or start without --resume",
+            ));
+        }
+        let kept: CheckpointState = saved.state().map_err(|e| refused(&e))?;
+        let seconds = |name: &str| saved.meta[name].as_f64().unwrap_or_default();
         let laws = Laws::from_scene(scene)?.all;
         let model = Model::resume(kept.model, laws, throats(scene)?);
         self.parts = Some(Assembled {
@@ -110,17 +113,20 @@ impl<'a> Running<'a> {
             origin: kept.origin,
         });
         self.progress = kept.progress;
+        self.progress.books.wall_seconds = seconds("wall_seconds");
+        self.progress.preparation_seconds = seconds("preparation_seconds");
         Ok(())
     }
 
-    fn now(&self) -> Result<ModelTime, DemError> {
+    fn now(&self) -> Result<sph_run::Progress, DemError> {
         let grains = self.parts()?.model.grains();
-        Ok(ModelTime {
+        Ok(sph_run::Progress {
             time: grains.time,
-            steps: grains.steps,
+            step: grains.steps,
             dt: self.progress.dt,
             limiter: self.limiter,
-            size: grains.grains.len(),
+            particles: grains.grains.len(),
+            ..Default::default()
         })
     }
 }
@@ -144,15 +150,15 @@ impl sph_run::Model for Running<'_> {
             }
         }
         let mut probes = self.loaded.scene.probe.values();
-        if let Some(parts) = &mut self.parts
+        if let Some(Model::Wet(system)) = self.parts.as_mut().map(|parts| &mut parts.model)
             && probes.any(|p| matches!(p, Probe::Flux { .. }))
         {
-            parts.model.measure_inflow();
+            system.measure_inflow();
         }
         Ok(self.progress.books.clone())
     }
 
-    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<ModelTime, DemError> {
+    fn advance(&mut self, limit: f64, _: &mut Watch<'_>) -> Result<sph_run::Progress, DemError> {
         let before = self.now()?;
         if let Some(parts) = self.parts.as_mut().filter(|_| before.time < limit) {
             parts.model.apply(loads(&self.loaded.scene));
@@ -207,12 +213,18 @@ impl sph_run::Model for Running<'_> {
     fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), DemError> {
         self.progress.books = books.clone();
         let parts = self.parts()?;
-        let kept = CheckpointState {
+        let mut kept = CheckpointState {
             model: parts.model.save(),
             origin: parts.origin.clone(),
             progress: self.progress.clone(),
         };
-        save_checkpoint(kept, &self.options.identity.scene, own)
+        let meta = json!({
+            "method": "grains",
+            "scene": self.options.identity.scene,
+            "wall_seconds": std::mem::take(&mut kept.progress.books.wall_seconds),
+            "preparation_seconds": kept.progress.preparation_seconds,
+        });
+        Ok(save_state(own, meta, &kept)?)
     }
 
     fn conclude(
@@ -221,24 +233,22 @@ impl sph_run::Model for Running<'_> {
         books: &RunCounters,
         observer: &mut Watch<'_>,
     ) -> Result<Option<Summary>, DemError> {
-        match ended {
+        let (errors, warnings, status) = match ended {
             Ok(status) => {
                 let series = self.options.out.join(SERIES);
                 let errors = compare::errors(self.loaded, &self.parts()?.origin, &series)?;
-                let summary = self.summary(status, books)?;
-                Ok(Some(Summary { errors, ..summary }))
+                (errors, Vec::new(), status)
             }
             Err(DemError::Failed(failure)) => {
                 self.draw_the_bad_state(failure, observer)?;
-                let warnings = vec![failure.to_string()];
-                let summary = self.summary(Status::Failed, books)?;
-                Ok(Some(Summary {
-                    warnings,
-                    ..summary
-                }))
+                (BTreeMap::new(), vec![failure.to_string()], Status::Failed)
             }
-            Err(_) => Ok(None),
-        }
+            Err(_) => return Ok(None),
+        };
+        let (scene, parts) = (&self.loaded.scene, self.parts()?);
+        let mut summary = Summary::new(scene, parts, &self.progress, status, books);
+        (summary.errors, summary.warnings) = (errors, warnings);
+        Ok(Some(summary))
     }
 }
 
@@ -267,11 +277,6 @@ impl Running<'_> {
             observer.message(&format!("note: {problem}"));
         }
         Ok(())
-    }
-
-    fn summary(&self, status: Status, books: &RunCounters) -> Result<Summary, DemError> {
-        let (scene, parts) = (&self.loaded.scene, self.parts()?);
-        Ok(Summary::new(scene, parts, &self.progress, status, books))
     }
 }
 

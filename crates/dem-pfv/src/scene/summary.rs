@@ -82,8 +82,8 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION"),
             plugins: plugins(scene),
             grains: count,
-            cells: wet.map(|w| w.pressures().len()),
-            meshes: wet.map(|w| w.meshes()),
+            cells: wet.map(|w| w.pressures.len()),
+            meshes: wet.map(|w| w.meshes),
             coordination: grains.coordination(),
             porosity: grains.porosity(),
             unbalanced_force: unbalanced.is_finite().then_some(unbalanced),
@@ -113,8 +113,6 @@ fn derived(origin: &Origin) -> BTreeMap<String, f64> {
         ("oedometric modulus [Pa]", modulus),
         ("consolidation coefficient [m²/s]", origin.consolidation()),
     ];
-    let known = all.into_iter();
-    known
-        .filter_map(|(name, value)| Some((name.to_string(), value?)))
-        .collect()
+    let known = |(name, value): (&str, Option<f64>)| Some((name.to_string(), value?));
+    all.into_iter().filter_map(known).collect()
 }

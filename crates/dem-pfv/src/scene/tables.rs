@@ -55,6 +55,42 @@ pub struct Scene {
     pub output: Output,
 }
 
+/// The walls of a box, in the order of `dem_pfv::grains::Wall::cuboid`.
+pub(crate) const BOX: [&str; 6] = ["left", "right", "front", "back", "bottom", "top"];
+
+impl Scene {
+    /// True if the box repeats itself along an axis.
+    pub(crate) fn periodic(&self, axis: usize) -> bool {
+        let mut given = self.r#box.iter().flat_map(|b| &b.periodic);
+        given.any(|a| a.number() == axis)
+    }
+
+    /// Names of the planes in the order in which the system has them: those of the box, then further ones.
+    pub(crate) fn planes(&self) -> Vec<String> {
+        let stands = |(k, name): (usize, &&str)| {
+            let given = self.r#box.as_ref()?;
+            let open = self.periodic(k / 2) || given.open.iter().any(|open| open == *name);
+            (!open).then(|| (*name).to_string())
+        };
+        let boxed = BOX.iter().enumerate().filter_map(stands);
+        let further =
+            |(name, wall): &(&String, &Wall)| !BOX.contains(&name.as_str()) && wall.file.is_none();
+        let more = self.wall.iter().filter(further);
+        boxed.chain(more.map(|(name, _)| name.clone())).collect()
+    }
+
+    /// Numbers, and tables in the scene, of the planes that have one.
+    pub(crate) fn planes_with_tables(&self) -> impl Iterator<Item = (usize, &Wall)> {
+        let all = self.planes().into_iter().enumerate();
+        all.filter_map(|(number, name)| Some((number, self.wall.get(&name)?)))
+    }
+
+    /// Names and tables of the surfaces of triangles.
+    pub(crate) fn surfaces(&self) -> impl Iterator<Item = (&String, &Wall)> {
+        self.wall.iter().filter(|(_, wall)| wall.file.is_some())
+    }
+}
+
 /// Duration and accuracy of the run.
 #[parameters]
 pub struct Run {
@@ -234,9 +270,7 @@ impl Piston {
     /// σ at a time (s), Pa.
     pub(crate) fn stress_at(&self, time: f64) -> f64 {
         let turn = |period: f64| (2.0 * std::f64::consts::PI * time / period).sin();
-        let swing = self
-            .period
-            .map_or(0.0, |period| self.amplitude * turn(period));
+        let swing = self.period.map_or(0.0, |t| self.amplitude * turn(t));
         self.stress + self.ramp * time + swing
     }
 }

@@ -1,7 +1,8 @@
 //! The finished triangulation: cells, facets, neighbours, power centres.
 
+use sparse::Groups;
+
 use crate::Vector;
-use crate::groups::Groups;
 use crate::triangulation::build::Builder;
 use crate::triangulation::order::insertion_order;
 use crate::triangulation::predicates::{GHOST, Predicates, except};
@@ -81,7 +82,7 @@ pub struct Triangulation {
     /// All cells.
     pub cells: Vec<Cell>,
     /// Cells around each sphere, then around each wall.
-    around: Groups,
+    pub(crate) around: Groups,
 }
 
 impl Triangulation {

@@ -102,11 +102,8 @@ impl Expansion {
 
     /// The product of both.
     pub fn times(&self, other: &Self) -> Self {
-        let (long, short) = if self.0.len() < other.0.len() {
-            (other, self)
-        } else {
-            (self, other)
-        };
+        let less = self.0.len() < other.0.len();
+        let (long, short) = if less { (other, self) } else { (self, other) };
         let mut terms = short.0.iter();
         let Some(&first) = terms.next() else {
             return Self::default();

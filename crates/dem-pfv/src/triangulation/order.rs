@@ -18,17 +18,14 @@ pub fn insertion_order(spheres: &[Sphere]) -> Vec<u32> {
     let key = |(i, s): (usize, &Sphere)| {
         let cells = f64::from(1_u32 << BITS);
         let at = |k: usize| (((s.centre[k] - low[k]) / size) * cells).min(cells - 1.0) as u32;
-        let round = rounds - mixed(i as u64).trailing_zeros().min(rounds);
+        // A number's bits in disorder.
+        let mixed = SplitMix((i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)).next();
+        let round = rounds - mixed.trailing_zeros().min(rounds);
         (round, hilbert([at(0), at(1), at(2)]), i as u32)
     };
     let mut keys: Vec<_> = spheres.iter().enumerate().map(key).collect();
     keys.sort_unstable();
     keys.into_iter().map(|(_, _, i)| i).collect()
-}
-
-/// A number's bits in disorder.
-fn mixed(i: u64) -> u64 {
-    SplitMix(i.wrapping_mul(0x9e37_79b9_7f4a_7c15)).next()
 }
 
 /// Bits of a coordinate on the curve.

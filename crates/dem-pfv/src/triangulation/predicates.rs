@@ -79,21 +79,25 @@ impl Predicates {
     pub fn side(&self, rays: [u32; 3], e: u32) -> Ordering {
         let o = self.points[e as usize];
         if rays.iter().all(|v| self.is_point(*v)) {
-            let [a, b, c] = rays.map(|v| coord(&self.points[v as usize]));
-            return sign(orient3d(a, b, c, coord(&o)));
+            let [a, b, c] = rays.map(|v| coord(self.points[v as usize]));
+            return sign(orient3d(a, b, c, coord(o)));
         }
-        let row = |v: u32| -> [f64; 3] {
-            std::array::from_fn(|k| match self.is_point(v) {
-                true => self.points[v as usize][k] - o[k],
-                false => self.wall(v)[k],
-            })
-        };
-        let (value, size) = determinant3(&rays.map(row));
+        let (value, size) = determinant3(&rays.map(|v| self.row(v, e)));
         if value.abs() > FLAT * size {
             return value.total_cmp(&0.0);
         }
         let rows = rays.map(|v| self.exact_row(v, e));
         exact_determinant3(rows.each_ref()).sign()
+    }
+
+    /// A ray but for l and h, with the centre `e` as the origin.
+    fn row(&self, v: u32, e: u32) -> [f64; 3] {
+        if !self.is_point(v) {
+            let [x, y, z, _] = *self.wall(v);
+            return [x, y, z];
+        }
+        let (p, o) = (&self.points[v as usize], &self.points[e as usize]);
+        [p[0] - o[0], p[1] - o[1], p[2] - o[2]]
     }
 
     /// Sign of O of four rays, of which one at least is a sphere and none is the ghost.
@@ -115,10 +119,11 @@ impl Predicates {
         if value.abs() > LIFTED * size {
             return Some(value > 0.0);
         }
-        let sign = self.exact_lifted(cell, e);
-        Some(match sign {
+        let rows = cell.map(|v| self.exact_row(v, e));
+        let lifts = cell.map(|v| self.exact_lift(v, e));
+        Some(match exact_determinant4(&rows, &lifts).sign() {
             Ordering::Equal => self.tie(cell, e),
-            _ => sign == Ordering::Greater,
+            sign => sign == Ordering::Greater,
         })
     }
 
@@ -127,18 +132,16 @@ impl Predicates {
         let o = self.points[e as usize];
         let (mut rows, mut l, mut size) = ([[0.0; 3]; 4], [0.0; 4], [0.0; 4]);
         for (i, &v) in cell.iter().enumerate() {
+            rows[i] = self.row(v, e);
             if self.is_point(v) {
-                let p = &self.points[v as usize];
-                let d = [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
+                let (p, d) = (&self.points[v as usize], rows[i]);
                 let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                rows[i] = d;
                 l[i] = square - (p[3] - o[3]);
                 size[i] = square + p[3] + o[3];
             } else {
                 let w = self.wall(v);
                 let dot = w[0] * o[0] + w[1] * o[1] + w[2] * o[2];
                 let all = (w[0] * o[0]).abs() + (w[1] * o[1]).abs() + (w[2] * o[2]).abs();
-                rows[i] = [w[0], w[1], w[2]];
                 l[i] = w[3] - 2.0 * dot;
                 size[i] = w[3].abs() + 2.0 * all;
             }
@@ -150,12 +153,6 @@ impl Predicates {
             total += size[i] * bound;
         }
         (value, total)
-    }
-
-    fn exact_lifted(&self, cell: [u32; 4], e: u32) -> Ordering {
-        let rows = cell.map(|v| self.exact_row(v, e));
-        let lifts = cell.map(|v| self.exact_lift(v, e));
-        exact_determinant4(&rows, &lifts).sign()
     }
 
     fn exact_row(&self, v: u32, e: u32) -> [Expansion; 3] {
@@ -217,12 +214,8 @@ fn sign(x: f64) -> Ordering {
     (x + 0.0).total_cmp(&0.0)
 }
 
-fn coord(p: &[f64; 4]) -> Coord3D<f64> {
-    Coord3D {
-        x: p[0],
-        y: p[1],
-        z: p[2],
-    }
+fn coord([x, y, z, _]: [f64; 4]) -> Coord3D<f64> {
+    Coord3D { x, y, z }
 }
 
 /// Determinant and the sum of the absolute values of its products.
@@ -236,12 +229,11 @@ fn determinant3(r: &[[f64; 3]; 3]) -> (f64, f64) {
     (value, size)
 }
 
-fn exact_minor(a: &[Expansion; 3], b: &[Expansion; 3]) -> Expansion {
-    a[0].times(&b[1]).minus(&b[0].times(&a[1]))
-}
-
 fn exact_determinant3(r: [&[Expansion; 3]; 3]) -> Expansion {
-    let m = |i: usize, j: usize, k: usize| r[i][2].times(&exact_minor(r[j], r[k]));
+    let m = |i: usize, j: usize, k: usize| {
+        let minor = r[j][0].times(&r[k][1]).minus(&r[k][0].times(&r[j][1]));
+        r[i][2].times(&minor)
+    };
     m(0, 1, 2).plus(&m(1, 2, 0)).plus(&m(2, 0, 1))
 }
 

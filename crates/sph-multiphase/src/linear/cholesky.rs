@@ -125,7 +125,7 @@ fn factorise(kept: &mut Workspace, rows: usize) -> Result<(), SolveError> {
     }
     let done = kept.factor.factorise(&kept.upper);
     done.map_err(|refused| match refused {
-        SparseError::NotPositive { row, unknowns } => {
+        SparseError::NotPositive(row, unknowns) => {
             SolveError::NotPositive(METHOD, row * rows / unknowns)
         }
         _ => SolveError::NoMemory(METHOD, rows),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sph_core::StepError;
-use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
+use sph_run::{Frames, Model, Poll, Progress, RunCounters, Start, Status, Watch};
 
 use crate::running::beginning::begin;
 use crate::running::course::{DerivedState, Running};
@@ -53,7 +53,7 @@ impl<const D: usize> Model for Running<'_, D> {
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, RunError> {
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Progress, RunError> {
         self.judge()?;
         let ready = |running: &Self| limit <= running.parts.flow.world.time;
         let mut done = ready(self);
@@ -157,15 +157,16 @@ impl<const D: usize> Model for Running<'_, D> {
 }
 
 impl<const D: usize> Running<'_, D> {
-    fn now(&self) -> ModelTime {
+    fn now(&self) -> Progress {
         let (dt, limiter) = self.tried;
         let world = &self.parts.flow.world;
-        ModelTime {
+        Progress {
             time: world.time,
-            steps: self.counters.steps,
+            step: self.counters.steps,
             dt,
             limiter,
-            size: world.free.len(),
+            particles: world.free.len(),
+            ..Progress::default()
         }
     }
 

@@ -156,6 +156,22 @@ pub enum Probe {
     },
 }
 
+impl Probe {
+    /// Number of the axis across a layer or a strip, and its ends, m.
+    pub(crate) fn layer(&self) -> Option<(usize, [f64; 2])> {
+        use Probe::{Gradient, K0, Level, Porosity, Pressure};
+        let (Pressure { axis, from, to, .. }
+        | Gradient { axis, from, to, .. }
+        | Level { axis, from, to }
+        | K0 { axis, from, to }
+        | Porosity { axis, from, to }) = self
+        else {
+            return None;
+        };
+        Some((axis.number(), [*from, *to]))
+    }
+}
+
 /// A comparison of the `kind`.
 #[parameters]
 #[serde(tag = "kind")]

@@ -235,7 +235,7 @@ fn a_packing_consolidates_as_terzaghi_has_it() {
         operators.drainage / half,
         rule.drainage / half,
         mean / tau,
-        system.meshes()
+        system.meshes
     );
     assert!((u - 1.0).abs() < 0.03, "(ii) {u} of the dry strain");
     assert!(
@@ -281,7 +281,7 @@ fn one_percent_of_strain_is_as_good_as_a_mesh_at_every_step() {
             system.step_unchecked(step).expect("a step");
             curve.push(system.layer_pressure(2, 0.4, 0.6).expect("pores"));
         }
-        (curve, system.meshes(), sample.strain(system.grains()))
+        (curve, system.meshes, sample.strain(system.grains()))
     };
     let (every, _, strain) = run(Remeshing {
         strain: Some(0.0),

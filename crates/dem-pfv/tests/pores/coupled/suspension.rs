@@ -96,7 +96,7 @@ fn seepage_at_the_critical_gradient_lifts_a_bed() {
     grains.gravity = dem_pfv::grains::Vector::new(0.0, 0.0, -GRAVITY * (1.0 - WATER / DENSITY));
     grains.set_damping(0.3).expect("damping");
     step_to_rest(&mut grains, 0.8, 1e-4, 200_000).expect("a bed");
-    let dry = -grains.walls[4].force().z;
+    let dry = -grains.walls[4].force.z;
     // Free water of two grains above the bed: nothing else holds it down.
     let (at, radii) = (&grains.grains.position, &grains.grains.radius);
     let top = at
@@ -134,7 +134,7 @@ fn seepage_at_the_critical_gradient_lifts_a_bed() {
         let step = 0.8 * system.step_limit().expect("a limit").step;
         system.step(step).expect("a step");
         if made >= 300 {
-            sum -= system.grains().walls[4].force().z;
+            sum -= system.grains().walls[4].force.z;
             count += 1.0;
         }
     }
@@ -172,7 +172,7 @@ fn a_suspension_settles_from_the_fluid_to_the_floor() {
         system.step(step).expect("a step");
         let (fluid, floor) = (
             system.drag().z / weight,
-            -system.grains().walls[4].force().z / weight,
+            -system.grains().walls[4].force.z / weight,
         );
         borne += (fluid + floor) * step;
         if system.time() > 3.0 {
@@ -189,7 +189,7 @@ fn a_suspension_settles_from_the_fluid_to_the_floor() {
     println!(
         "fluid {start:.3} at first, {fluid:.4} at last; floor {floor:.4}; together {mean:.4} on the way \
          ({steps} steps, {} meshes)",
-        system.meshes()
+        system.meshes
     );
     assert!(
         (mean - 1.0).abs() < 0.01,

@@ -47,7 +47,7 @@ fn a_plate_of_triangles_is_a_wall() {
         assert!(apart.norm() < 1e-10, "{apart}");
     }
     assert!(position(&on_wall, 0).x > 0.5);
-    assert!((on_mesh.meshes[0].force() - on_wall.walls[0].force()).norm() < 1e-6 * GRAVITY);
+    assert!((on_mesh.meshes[0].force - on_wall.walls[0].force).norm() < 1e-6 * GRAVITY);
 }
 
 #[test]

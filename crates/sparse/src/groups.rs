@@ -2,9 +2,11 @@
 
 /// Members of numbered groups, those of a group in the order in which they were given.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Groups {
-    starts: Vec<u32>,
-    members: Vec<u32>,
+pub struct Groups {
+    /// Begin of the members of each group, and the end of the last one.
+    pub starts: Vec<u32>,
+    /// Group by group.
+    pub members: Vec<u32>,
 }
 
 impl Groups {
@@ -26,8 +28,13 @@ impl Groups {
         Self { starts, members }
     }
 
+    /// Places of the members of a group.
+    pub fn range(&self, group: usize) -> std::ops::Range<usize> {
+        self.starts[group] as usize..self.starts[group + 1] as usize
+    }
+
     /// Members of a group.
     pub fn members(&self, group: usize) -> &[u32] {
-        &self.members[self.starts[group] as usize..self.starts[group + 1] as usize]
+        &self.members[self.range(group)]
     }
 }
