@@ -7,6 +7,9 @@ use crate::geometry::polyline::WallEnd;
 /// Most pairs of edges or triangles that are held against each other: a second or two of work.
 pub(crate) const MOST_PAIRS: usize = 200_000_000;
 
+/// Of walls, motions and kernels that may be refused.
+pub(crate) type Result<T, E = BoundaryError> = std::result::Result<T, E>;
+
 /// A refused wall, motion or kernel.
 ///
 /// Messages name walls in backquotes; points, edges and triangles count from 0 as in the input, edge k of a triangle
@@ -74,7 +77,7 @@ impl BoundaryError {
         Self::Refused(format!("wall `{wall}`: {why}"))
     }
 
-    pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Self> {
+    pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<()> {
         match value > 0.0 && value.is_finite() {
             true => Ok(()),
             false => Err(Self::NotPositive { name, value }),

@@ -9,11 +9,10 @@
 //! | finds elements near a point | [`Grid<2>`] | [`Grid<3>`] |
 //! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
-//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins
-//! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
-//! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
-//! [`RigidMotion`] moves one along [`Course`]s,
-//! [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
+//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins are written once
+//! over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`] fulfil it. [`Mover`] is the contract
+//! of what moves a wall, whose [`RigidState`] is kept, rolled back and saved; [`RigidMotion`] moves one along
+//! [`Course`]s, [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
 //! `plugins`, which is on unless it is turned off; without it the table above is left, for programs that want γ of a
 //! mesh and nothing else.
 //!
@@ -41,6 +40,7 @@ mod scale;
 #[cfg(feature = "plugins")]
 mod treatment;
 
+pub(crate) use error::Result;
 pub use error::{BoundaryError, Place};
 pub use geometry::drawing::Drawing;
 pub use geometry::mesh::{

@@ -84,7 +84,6 @@ pub struct RigidBody {
 
 type MoverResult<T> = Result<T, MoverRefusal>;
 
-/// A vector of as many numbers as there are dimensions.
 fn vector<const D: usize>(
     key: &str,
     given: &Option<Vec<f64>>,
@@ -105,7 +104,6 @@ fn wrong_count<T>(key: &str, found: usize, expected: &str) -> MoverResult<T> {
 }
 
 impl RigidBody {
-    /// Mass, centre and inertia.
     fn weighed<const D: usize>(
         &self,
         setting: &MoverSetting<'_, D>,
@@ -229,7 +227,6 @@ fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<
     Ok(())
 }
 
-/// Mass, centre and inertia of a body.
 struct MassProperties {
     mass: f64,
     centre: Vector3<f64>,
@@ -237,7 +234,6 @@ struct MassProperties {
     dry: bool,
 }
 
-/// The inertia that a scene gives.
 fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
     let tensor = match (D, given) {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),

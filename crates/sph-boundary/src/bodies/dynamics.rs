@@ -96,13 +96,11 @@ impl Dynamics {
         Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(column))
     }
 
-    /// Inertia about the centre, and mass and inertia together, of the turned body.
     fn inertia_at(&self, turn: &Matrix3<f64>) -> (Matrix3<f64>, Matrix6<f64>) {
         let inertia = turn * self.inertia * turn.transpose();
         (inertia, blocks(Matrix3::identity() * self.mass, inertia))
     }
 
-    /// Force and moment about the centre.
     fn force<const D: usize>(&self, now: &RigidState<D>, load: &Load<D>) -> Vector6<f64> {
         let place = padded(now.place().as_slice());
         let [fluid, contact] = [&load.force, &load.contact_force].map(|f| padded(f.as_slice()));

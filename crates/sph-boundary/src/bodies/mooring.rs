@@ -7,7 +7,6 @@ use crate::bodies::line::{Line, crosses};
 use crate::bodies::spatial_vector::{padded, six};
 use crate::{MoverRefusal, MoverSetting};
 
-/// A line, ready to pull.
 #[derive(Clone, Debug)]
 pub(crate) struct Mooring {
     from: Vector3<f64>,
@@ -87,7 +86,6 @@ impl Mooring {
         Ok(mooring)
     }
 
-    /// A chain between two places.
     #[cfg(test)]
     pub fn chain(from: Vector3<f64>, to: Vector3<f64>, chain: Catenary, up: Vector3<f64>) -> Self {
         let kind = Kind::Hanging(chain, up);
@@ -136,7 +134,6 @@ impl Mooring {
         Ok(Kind::Hanging(catenary, up))
     }
 
-    /// The line as it is before the start.
     fn drawn_places(&self) -> Vec<Vector3<f64>> {
         match &self.kind {
             Kind::Straight(..) => vec![self.from, self.to],

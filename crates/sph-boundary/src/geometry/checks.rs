@@ -6,7 +6,7 @@ use sph_core::BoxTree;
 
 pub(crate) use crossing::check_crossings;
 
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{bounds, distance_to_segment, dot, sub, widened};
 
@@ -16,8 +16,7 @@ const SHORT: f64 = 0.25;
 /// Part of the perimeter squared below which an area counts as zero.
 const NO_AREA: f64 = 1e-12;
 
-/// Points that are too few, not finite or repeated.
-pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
+pub(crate) fn check_points(line: &Polyline) -> Result<()> {
     if line.points.len() < 2 {
         let count = line.points.len();
         let why = format!("has {count} point(s), at least two are needed");
@@ -35,11 +34,7 @@ pub(crate) fn check_points(line: &Polyline) -> Result<(), BoundaryError> {
     Ok(())
 }
 
-/// Coordinates that are infinite or no numbers.
-pub(crate) fn check_finite<const D: usize>(
-    wall: &str,
-    points: &[[f64; D]],
-) -> Result<(), BoundaryError> {
+pub(crate) fn check_finite<const D: usize>(wall: &str, points: &[[f64; D]]) -> Result<()> {
     let finite = |p: &[f64; D]| p.iter().all(|x| x.is_finite());
     match points.iter().position(|p| !finite(p)) {
         None => Ok(()),
@@ -51,7 +46,7 @@ pub(crate) fn check_finite<const D: usize>(
 }
 
 /// A closed wall that encloses nothing and is not a plate of zero thickness.
-pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<(), BoundaryError> {
+pub(crate) fn check_area(line: &Polyline, tolerance: f64) -> Result<()> {
     let perimeter: f64 = line.lengths().sum();
     if line.closed
         && line.signed_area().abs() <= NO_AREA * perimeter * perimeter

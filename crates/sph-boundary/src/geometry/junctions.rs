@@ -7,10 +7,8 @@ use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::widened;
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 
-/// A line with the number of its wall.
 type Piece = (usize, Polyline);
 
-/// An end of an open piece.
 struct End {
     piece: usize,
     place: [f64; 2],
@@ -18,7 +16,6 @@ struct End {
     begins: bool,
     /// Of the line, from the end on, rad.
     angle: f64,
-    /// Of its wall.
     group: usize,
 }
 
@@ -105,7 +102,6 @@ fn cut(line: &Polyline, ends_at: impl Fn([f64; 2]) -> bool) -> Vec<Polyline> {
     bounds.windows(2).map(piece).collect()
 }
 
-/// Ends of open pieces, and the search for those at a place.
 struct Ends {
     all: Vec<End>,
     tree: BoxTree<2>,

@@ -2,7 +2,6 @@
 
 use crate::geometry::vector::{Point, along, cross, dot, sub, unit};
 
-/// A plane with two axes in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     origin: Point,

@@ -1,6 +1,6 @@
 //! The outline of a thin plate.
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Result};
 use crate::geometry::checks::check_points;
 use crate::geometry::polyline::Polyline;
 
@@ -9,20 +9,18 @@ const MITRE_LIMIT: f64 = 0.05;
 
 /// The closed outline of a plate with fluid on both sides: two opposite faces and two caps.
 ///
-/// `points` is the middle line and `thickness` ≥ 0 is in metres. Corners are mitred: the faces pass
-/// at ± thickness/2 · (n₁ + n₂)/(1 + n₁·n₂) from a corner between edges of normals n₁ and n₂. The
-/// outline runs clockwise around the plate. At zero thickness it goes forth and back over the same
-/// points: there is one vertex per side along the plate (θ = 1/2 on a straight stretch), and one at
-/// each end with fluid all around (θ = 1).
+/// `points` is the middle line and `thickness` ≥ 0 is in metres. Corners are mitred: the faces pass at ± thickness/2 ·
+/// (n₁ + n₂)/(1 + n₁·n₂) from a corner between edges of normals n₁ and n₂. The outline runs clockwise around the plate.
+/// At zero thickness it goes forth and back over the same points: there is one vertex per side along the plate (θ = 1/2
+/// on a straight stretch), and one at each end with fluid all around (θ = 1).
 ///
 /// # Errors
-/// Fewer than two points, coincident or non-finite points, a negative thickness, or a fold too
-/// sharp to be mitred.
+/// Fewer than two points, coincident or non-finite points, a negative thickness, or a fold too sharp to be mitred.
 pub fn thin_plate(
     name: impl Into<String>,
     points: &[[f64; 2]],
     thickness: f64,
-) -> Result<Polyline, BoundaryError> {
+) -> Result<Polyline> {
     let middle = Polyline::open(name, points.to_vec());
     check_points(&middle)?;
     if !(thickness >= 0.0 && thickness.is_finite()) {
@@ -56,7 +54,6 @@ pub fn thin_plate(
     Ok(Polyline::closed(middle.name, outline))
 }
 
-/// Unit normal on the left of an edge.
 fn left_normal([a, b]: [[f64; 2]; 2]) -> [f64; 2] {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
     let length = x.hypot(y);

@@ -5,16 +5,15 @@ use std::ops::ControlFlow;
 use sph_core::BoxTree;
 
 use crate::Polyline;
-use crate::error::{BoundaryError, MOST_PAIRS};
+use crate::error::{BoundaryError, MOST_PAIRS, Result};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{bounds, dot, perp, sub, widened};
 
 /// Lines without the stretches on which two of them lie face to face, each with its number.
 ///
-/// Where a block stands on a floor neither the floor under it nor its own base meets any fluid:
-/// the rest is the boundary of the fluid, and the open ends join into one line. Lines are
-/// compared within a group (walls that move together); a line is not compared with itself, as a
-/// plate of no thickness lies on itself on purpose.
+/// Where a block stands on a floor neither the floor under it nor its own base meets any fluid: the rest is the
+/// boundary of the fluid, and the open ends join into one line. Lines are compared within a group (walls that move
+/// together); a line is not compared with itself, as a plate of no thickness lies on itself on purpose.
 ///
 /// # Errors
 /// If too many edges are near each other.
@@ -22,7 +21,7 @@ pub(crate) fn without_shared(
     lines: &[Polyline],
     groups: &[usize],
     spacing: f64,
-) -> Result<Vec<(usize, Polyline)>, BoundaryError> {
+) -> Result<Vec<(usize, Polyline)>> {
     if lines.len() == 1 {
         return Ok(vec![(0, lines[0].clone())]);
     }

@@ -2,7 +2,6 @@
 
 pub(crate) use sph_core::bounds;
 
-/// A place in space.
 pub(crate) type Point = [f64; 3];
 
 #[inline(always)]
@@ -81,7 +80,6 @@ pub(crate) fn foot_on_segment<const D: usize>(
     (part, along(to, -part, t))
 }
 
-/// Distance of a point from the segment between two others.
 pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], ends: [[f64; D]; 2]) -> f64 {
     norm(foot_on_segment(p, ends).1)
 }

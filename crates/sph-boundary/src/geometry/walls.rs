@@ -21,7 +21,6 @@ pub struct Walls<const D: usize> {
     pub(crate) mesh: Mesh<D>,
     /// Of the present position, made at the first request.
     grid: OnceLock<Grid<D>>,
-    /// Of space.
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
@@ -59,7 +58,6 @@ impl<const D: usize> Walls<D> {
         beds.clone_into(&mut self.mesh.beds);
     }
 
-    /// Walls that have moved.
     pub(crate) fn forget_places(&mut self) {
         self.grid = OnceLock::new();
     }

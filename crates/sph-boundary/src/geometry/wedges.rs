@@ -25,9 +25,8 @@ pub(crate) fn wedges(mut around: Vec<AdjacentFace>) -> Vec<[usize; 2]> {
 
 /// By piece, whether it bounds the fluid; `parts` are those that hang together.
 ///
-/// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs
-/// together with one of them ends on the back of another wall, so that no fluid can be before it, if those others
-/// end nowhere.
+/// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs together
+/// with one of them ends on the back of another wall, so that no fluid can be before it, if those others end nowhere.
 pub(crate) fn bound_fluid(
     mut parts: Sets,
     count: usize,

@@ -2,18 +2,17 @@
 
 use sph_kernels::{PiecewisePolynomial, algebra};
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Result};
 
 /// σ of a kernel shape that can be integrated, with a smoothing length h, m, that is one.
 ///
 /// # Errors
-/// A smoothing length that is not positive, or breaks and pieces that do not fit together or have
-/// no positive integral.
+/// A smoothing length that is not positive, or breaks and pieces that do not fit together or have no positive integral.
 pub(crate) fn normalisation(
     shape: &PiecewisePolynomial,
     smoothing_length: f64,
     dimension: usize,
-) -> Result<f64, BoundaryError> {
+) -> Result<f64> {
     BoundaryError::check_positive("smoothing length", smoothing_length)?;
     let unfit = |reason| BoundaryError::Kernel { reason };
     shape.check().map_err(unfit)?;

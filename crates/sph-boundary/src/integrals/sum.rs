@@ -19,14 +19,13 @@ const SURELY_FLUID: f64 = 1e-9;
 /// γ = x − ⌊x⌋,   x = Σ θ_contact − Σ Γ_as,   taken in [10⁻⁹, 1 + 10⁻⁹)
 /// ```
 ///
-/// θ_contact being 1/2 for each segment the point lies on and θ_v for each corner it coincides with.
-/// A point just inside has Σ Γ ≈ +1/2 and takes θ = 1, one a rounding error outside has −1/2 and
-/// takes θ = 0, one exactly on the wall has 0 and takes 1/2: γ = 1/2 in all three cases, and the
-/// same holds at corners, on plates of any thickness, zero included (1/2 + 1/2 = 1), and where
-/// several walls touch. At the ambiguous end γ = 0 or 1, the point is taken to be in the fluid: a
-/// point outside and out of reach of every wall has γ = 1, as has one in the fluid. Use
-/// [`Mesh::contains`] to find particles that left. Equally, a fluid wedge narrower than
-/// 10⁻⁹ · 2π, or a corner of a solid angle below 10⁻⁹ · 4π, is not seen.
+/// θ_contact being 1/2 for each segment the point lies on and θ_v for each corner it coincides with. A point just
+/// inside has Σ Γ ≈ +1/2 and takes θ = 1, one a rounding error outside has −1/2 and takes θ = 0, one exactly on the
+/// wall has 0 and takes 1/2: γ = 1/2 in all three cases, and the same holds at corners, on plates of any thickness,
+/// zero included (1/2 + 1/2 = 1), and where several walls touch. At the ambiguous end γ = 0 or 1, the point is taken to
+/// be in the fluid: a point outside and out of reach of every wall has γ = 1, as has one in the fluid. Use
+/// [`Mesh::contains`] to find particles that left. Equally, a fluid wedge narrower than 10⁻⁹ · 2π, or a corner of a
+/// solid angle below 10⁻⁹ · 4π, is not seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GammaSum<const D: usize> {
     /// Σ Γ_as over the elements that do not contain the point.

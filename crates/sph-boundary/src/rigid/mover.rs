@@ -6,8 +6,7 @@ use sph_neighbours::DepthGauge;
 
 use crate::{Drawing, RigidMotion, RigidState};
 
-/// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in
-/// checkpoints.
+/// Moves one wall. The wall's state is its whole memory: it is rolled back with the particles, and in checkpoints.
 pub trait Mover<const D: usize>: Send + Sync + std::fmt::Debug {
     /// Takes the geometry of its wall and of its surroundings; called once, first of all.
     ///

@@ -11,7 +11,7 @@ use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::unrolled;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};
-use crate::{BoundaryError, SeenElement};
+use crate::{BoundaryError, Result, SeenElement};
 
 /// Nodes of the grid per smoothing length.
 const NODES: f64 = 4.0;
@@ -23,11 +23,9 @@ const SAMPLES: usize = 4;
 /// Share of ln s + ln ∫ s w that a sweep takes off. Its error falls by 1 − ω (1 + λ), λ from 0 (rough) to 1 (smooth): to a
 /// third at most.
 const RELAXATION: f64 = 2.0 / 3.0;
-/// Sweeps at most.
 const SWEEPS: usize = 40;
 /// Largest change of ln s after which no further sweep is made.
 const TOLERANCE: f64 = 1e-5;
-/// Nodes at most.
 const MOST_NODES: usize = 20_000_000;
 
 /// ln s of walls less that of their flat faces, as a cubic spline.
@@ -43,7 +41,6 @@ pub(crate) struct ScaleMap<const D: usize> {
     walls: Vec<u32>,
 }
 
-/// Input of a map.
 pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     /// The walls, where they were drawn.
     pub mesh: &'a M,
@@ -55,7 +52,6 @@ pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     pub over_flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
     pub kernel: &'a dyn Sampler,
     pub domain: &'a Domain<D>,
-    /// Name of the walls, for messages.
     pub wall: &'a str,
 }
 
@@ -89,7 +85,7 @@ impl<const D: usize> ScaleMap<D> {
     ///
     /// # Errors
     /// If the grid would have too many nodes.
-    pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
+    pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self> {
         let h = of.kernel.smoothing_length();
         let step = h / NODES;
         let nodes = of.mesh.places();
@@ -159,14 +155,12 @@ impl<const D: usize> ScaleMap<D> {
         Some((value, gradient, wall))
     }
 
-    /// The middle of its grid, m.
     pub fn middle(&self) -> Vect<D> {
         let half = |k: usize| 0.5 * (self.grid.nodes[k] - 1) as f64 * self.grid.step;
         self.grid.low + Vect::from_fn(|k, _| half(k))
     }
 }
 
-/// Data of a node.
 struct NodeKind<const D: usize> {
     /// Distance from the walls, m, negative behind them.
     height: f64,
@@ -302,7 +296,6 @@ fn far_node<const D: usize, M: WallMesh<D>>(
     }
 }
 
-/// A node near curved elements.
 fn near_node<const D: usize, M: WallMesh<D>>(
     x: &Vect<D>,
     step: f64,
@@ -375,7 +368,6 @@ fn lumps<const D: usize>(
     lumps
 }
 
-/// Half of the diagonal of a cell, m.
 fn half_diagonal<const D: usize>(step: f64) -> f64 {
     0.5 * (D as f64).sqrt() * step
 }

@@ -6,7 +6,6 @@ use sph_kernels::{Kernel, gauss_points};
 pub(crate) const REACH: f64 = 3.0;
 /// From where on it is faded out, over h.
 const FADES: f64 = 2.5;
-/// Cells of the table.
 const CELLS: usize = 768;
 /// Panels of the half line per h.
 const PANELS: usize = 10;

@@ -10,7 +10,7 @@ use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
-use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
+use crate::{PeriodicBox, Result, WallSetup, WallSpec};
 
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;
@@ -78,7 +78,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
     ///
     /// # Errors
     /// If a wall cannot have a scale.
-    pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self, BoundaryError> {
+    pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self> {
         let plane = PlaneScale::new(setup.kernel, D);
         let h = setup.smoothing_length;
         let kernel = setup.kernel.sampler(D, h);

@@ -10,7 +10,7 @@ use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
 use crate::treatment::stage_error;
-use crate::{BoundaryError, WallSetup};
+use crate::{BoundaryError, Result, WallSetup};
 
 /// Walls of elements as both treatments have them: mesh, integrals, contacts.
 #[derive(Debug)]
@@ -170,7 +170,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         setup: &WallSetup<'_, D>,
         vertices: bool,
         size: f64,
-    ) -> Result<(Self, WallSet<D>), BoundaryError> {
+    ) -> Result<(Self, WallSet<D>)> {
         let shape = setup.kernel.polynomial().ok_or_else(|| {
             let name = setup.kernel.name();
             let reason = format!(
@@ -217,10 +217,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let positions = world.free.get(fields::POSITION)?;
         // Wall functions and scalars transported to walls read the contacts of every particle, and not in sums.
         let read = !(world.walls.elements.wall_function.is_empty() && world.transported.is_empty());
-        let idle = match read {
-            true => None,
-            false => world.idle(),
-        };
+        let idle = if read { None } else { world.idle() };
         let contacts = &mut world.walls.contacts;
         let mut blocks = contacts.take_blocks(positions.len());
         self.find(positions, idle.as_deref(), &mut blocks);

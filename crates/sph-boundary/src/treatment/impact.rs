@@ -22,11 +22,10 @@ const TURNS: usize = 4;
 impl<const D: usize> NearLists<D> {
     /// Removes the part of the velocities that would carry a particle into a wall within `dt`.
     ///
-    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
-    /// d + Δt (u − u_w)·e falls below the `least` share of a spacing, the velocity along e is raised to
-    /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
-    /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
-    /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
+    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if d + Δt (u − u_w)·e falls below
+    /// the `least` share of a spacing, the velocity along e is raised to what ends there, at most to that of the wall.
+    /// A plastic impact: the pressure of a lone particle, whose density sum is far below ρ₀, would not stop it. What
+    /// several elements ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
     ///
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
     /// from any element in front of it, m; particles out of danger are skipped.
@@ -172,7 +171,6 @@ struct StoppedVelocity<const D: usize> {
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
 
-/// Hindrance of a particle next to a wall in a step.
 struct Impact<'a, const D: usize, M: WallMesh<D>> {
     outline: &'a Outline<D, M>,
     spacing: f64,
@@ -205,7 +203,6 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         }
     }
 
-    /// The velocity that no element within `reach` objects to.
     fn corrected(
         &self,
         here: (&Vect<D>, &[(u32, u32)]),
@@ -258,7 +255,6 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
-    /// The change of velocity by a hindrance.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = self.least;
         // The deficit of the velocity along e for an end at the least clearance.

@@ -27,7 +27,6 @@ const BATCH: usize = 256;
 #[derive(Debug, Default)]
 pub(crate) struct NearLists<const D: usize> {
     built_for: u64,
-    /// Builds so far.
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
@@ -44,11 +43,9 @@ pub(crate) struct NearLists<const D: usize> {
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
-    /// Kept for its memory.
     room: Scratch<D>,
 }
 
-/// Buffers of a search.
 #[derive(Debug, Default)]
 struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
@@ -56,7 +53,6 @@ struct Scratch<const D: usize> {
     found: Vec<TaskResults<D>>,
 }
 
-/// Results of one task.
 #[derive(Debug, Default)]
 struct TaskResults<const D: usize> {
     places: Vec<Vect<D>>,
@@ -75,7 +71,6 @@ struct Row<const D: usize> {
 }
 
 impl<const D: usize> Row<D> {
-    /// Not found yet.
     fn none() -> Self {
         Row {
             place: Vect::repeat(f64::NAN),
@@ -125,7 +120,6 @@ impl<const D: usize> NearLists<D> {
         searched.map_err(stage_error)
     }
 
-    /// Finds those with an element at a free end near.
     fn find_rims<M: WallMesh<D>>(&mut self, mesh: &M) {
         let mut rims = std::mem::take(&mut self.rims);
         rims.clear();
@@ -167,7 +161,6 @@ impl<const D: usize> NearLists<D> {
         self.identities.extend_from_slice(identities);
     }
 
-    /// Looks up missing elements.
     fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
         let mut room = std::mem::take(&mut self.room);

@@ -11,7 +11,9 @@ use crate::geometry::walls::cover::Cover;
 use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{groups, is_piece};
 use crate::treatment::kernel_reach::far_sight;
-use crate::{BoundaryError, Movement, Node, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+use crate::{
+    BoundaryError, Movement, Node, PeriodicBox, Pose, Result, RigidState, WallSetup, WallSpec,
+};
 
 /// Most periods that walls may reach across: images are counted in a byte.
 const MOST_PERIODS: f64 = 100.0;
@@ -41,9 +43,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub domain: Domain<D>,
     /// Forces on walls by stopped particles in the last drift.
     pub struck: Vec<WallForce<D>>,
-    /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
-    /// Moves so far.
     pub moved: u64,
     cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
@@ -51,7 +51,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Meshes the walls by elements of a size, m.
-    pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self, BoundaryError> {
+    pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self> {
         let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
         for spec in whole.map(|k| &setup.walls[k]) {
             if !spec.motion.is_sound() {
@@ -97,7 +97,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Ok(outline)
     }
 
-    /// Name of a wall.
     pub fn name(&self, wall: usize) -> String {
         self.specs[wall].drawing.name().to_string()
     }
@@ -121,7 +120,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         movement
     }
 
-    /// From where a place of a wall was drawn to where it is.
     pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<'_, D, M>> {
         let walls = self.specs.iter().zip(&self.states).enumerate();
         let map = |(k, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
@@ -130,12 +128,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.map(map).collect()
     }
 
-    /// True if any wall changes its shape.
     pub fn bends(&self) -> bool {
         self.specs.iter().any(|s| s.motion.bends())
     }
 
-    /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
         let moves = |s: &WallSpec<D>| s.motion.moves() || s.mover.is_some();
         self.specs.iter().any(moves)
@@ -152,7 +148,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         visible.into_iter().map(share).collect()
     }
 
-    /// Frames of the walls; empty where none ever moves.
     pub fn frames(&self) -> Vec<Frame<D>> {
         if !self.moves() {
             return Vec::new();
@@ -229,7 +224,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.beds.clone_from(&self.beds[0]);
     }
 
-    /// True if any wall slips partly.
     pub fn slips(&self) -> bool {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
     }
@@ -320,10 +314,7 @@ fn start<const D: usize>(spec: &WallSpec<D>) -> RigidState<D> {
 }
 
 /// Refuses walls that reach so far out of a periodic box that their images would be without number.
-fn check_reach<const D: usize>(
-    walls: &[WallSpec<D>],
-    domain: &PeriodicBox<D>,
-) -> Result<(), BoundaryError> {
+fn check_reach<const D: usize>(walls: &[WallSpec<D>], domain: &PeriodicBox<D>) -> Result<()> {
     domain.check()?;
     for spec in walls {
         let periods = domain.periods_to(spec.drawing.points().into_iter());

@@ -9,7 +9,8 @@ use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::{
-    BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
+    WallStates,
 };
 
 /// Least distance of particles from walls over the spacing: that of films, which the density sum lets sink.
@@ -48,7 +49,6 @@ pub struct Symmetric<const D: usize, M: WallMesh<D>> {
     scales: Option<Scales<D, M>>,
 }
 
-/// The scale, and its last results.
 #[derive(Debug)]
 struct Scales<const D: usize, M> {
     walls: WallScales<D, M>,
@@ -113,7 +113,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
         0.5
     }
 
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>> {
         for spec in setup.walls {
             let why = match spec {
                 WallSpec { open: true, .. } => {

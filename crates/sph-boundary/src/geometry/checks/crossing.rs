@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::error::{BoundaryError, MOST_PAIRS};
+use crate::error::{BoundaryError, MOST_PAIRS, Result};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::vector::{add, along, bounds, perp, sub};
@@ -25,17 +25,16 @@ pub(crate) fn check_crossings(
     polylines: &[Polyline],
     tolerance: f64,
     domain: &PeriodicBox,
-) -> Result<usize, BoundaryError> {
+) -> Result<usize> {
     compared(polylines, tolerance, domain, MOST_PAIRS)
 }
 
-/// The same for so many pairs at most.
 fn compared(
     polylines: &[Polyline],
     tolerance: f64,
     domain: &PeriodicBox,
     most: usize,
-) -> Result<usize, BoundaryError> {
+) -> Result<usize> {
     let edges = edges(polylines, domain);
     let tree = BoxTree::new(edges.iter().map(|e| bounds(e.ends)).collect());
     let mut pairs = 0;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, joints};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Result};
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
@@ -17,14 +17,9 @@ impl Mesh<2> {
     /// Cuts the walls into segments of about `spacing` metres.
     ///
     /// # Errors
-    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with
-    /// the fluid on the other side. A wall that ends freely is not refused here: see
-    /// [`Mesh::check_free_ends`].
-    pub fn build(
-        polylines: &[Polyline],
-        spacing: f64,
-        domain: &PeriodicBox,
-    ) -> Result<Self, BoundaryError> {
+    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with the fluid on the
+    /// other side. A wall that ends freely is not refused here: see [`Mesh::check_free_ends`].
+    pub fn build(polylines: &[Polyline], spacing: f64, domain: &PeriodicBox) -> Result<Self> {
         let names = polylines.iter().map(|line| line.name.clone()).collect();
         let walls: Vec<usize> = (0..polylines.len()).collect();
         Self::of_pieces((polylines, &walls), names, spacing, domain)
@@ -36,7 +31,7 @@ impl Mesh<2> {
         names: Vec<String>,
         spacing: f64,
         domain: &PeriodicBox,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         BoundaryError::check_positive("wall spacing", spacing)?;
         domain.check()?;
         let tolerance = SAME_PLACE * spacing;
@@ -108,7 +103,6 @@ impl Mesh<2> {
         }
     }
 
-    /// Fluid angles of the nodes.
     fn find_angles(&mut self) {
         for (node, beside) in self.nodes.iter_mut().zip(&self.beside) {
             if let [Some(previous), Some(next)] = *beside {
@@ -143,11 +137,7 @@ impl Mesh<2> {
     ///
     /// # Errors
     /// Names the wall, the end and the nearest point. Lengths in metres.
-    pub fn check_free_ends(
-        &self,
-        points: &[[f64; 2]],
-        kernel_radius: f64,
-    ) -> Result<(), BoundaryError> {
+    pub fn check_free_ends(&self, points: &[[f64; 2]], kernel_radius: f64) -> Result<()> {
         for free in &self.free_ends {
             let position = self.nodes[free.node].position;
             let distance = |point: &[f64; 2]| {
@@ -171,13 +161,11 @@ impl Mesh<2> {
     }
 }
 
-/// Number of equal parts of an edge.
 fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]);
     ((length / spacing).round() as usize).max(1)
 }
 
-/// Index of the first node of every piece.
 fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
     let mut next = 0;
     let first = |(line, after): (&Polyline, &Continuation)| {

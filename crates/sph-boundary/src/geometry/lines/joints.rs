@@ -2,7 +2,7 @@
 
 use sph_core::BoxTree;
 
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::polyline::{Polyline, WallEnd};
 use crate::geometry::vector::{add, sub, widened};
@@ -26,7 +26,7 @@ pub(super) fn joints(
     polylines: &[Polyline],
     tolerance: f64,
     domain: &PeriodicBox,
-) -> Result<Joints, BoundaryError> {
+) -> Result<Joints> {
     let alone = |(wall, line): (usize, &Polyline)| line.closed.then_some((wall, [0; 2]));
     let mut joints = Joints {
         after: polylines.iter().enumerate().map(alone).collect(),

@@ -109,7 +109,6 @@ where
         })
     }
 
-    /// The elements and their images over the box, seen along an axis.
     fn rays(&self, along: usize) -> Rays<D> {
         let flat = |x: [f64; D]| flattened(x, along);
         let rim = RIM * self.spacing;

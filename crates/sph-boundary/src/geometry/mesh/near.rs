@@ -9,7 +9,6 @@ use crate::geometry::vector::{add, bounds, dot, norm, sub};
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;
 
-/// Elements that may be near one of several points.
 #[derive(Default)]
 struct Candidates<const D: usize> {
     /// By image and element.

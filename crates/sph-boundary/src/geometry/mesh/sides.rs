@@ -9,8 +9,7 @@ use crate::geometry::vector::widened;
 /// Data of a mesh for the side of a point, at the present position.
 #[derive(Clone, Debug)]
 pub struct Sides<const D: usize> {
-    /// Along one axis; if all are periodic, along each, and the last one goes
-    /// through an element.
+    /// Along one axis; if all are periodic, along each, and the last one goes through an element.
     pub(super) rays: Vec<Rays<D>>,
     /// The centre of that element, m.
     pub(super) target: [f64; D],
@@ -28,7 +27,6 @@ pub struct Sides<const D: usize> {
 /// Elements and their images over the box, seen along an axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Rays<const D: usize> {
-    /// The axis.
     pub along: usize,
     entries: Vec<NearElement<D>>,
     /// Of their boxes, flat across the axis.
@@ -48,7 +46,6 @@ impl<const D: usize> Rays<D> {
         }
     }
 
-    /// Calls `found` with the elements that a ray from the point may meet.
     pub fn each(&self, point: [f64; D], mut found: impl FnMut(NearElement<D>)) {
         let at = flattened(point, self.along);
         let around = widened([at; 2], self.rim);

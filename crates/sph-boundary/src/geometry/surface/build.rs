@@ -10,7 +10,7 @@ use super::patches::{Patch, patches};
 use super::places::{Places, Site};
 use super::removal::remove_contacts;
 use super::wetted::{FaceContacts, wetted_pieces};
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::unseen;
 use crate::geometry::mesh::{Element, ElementMeasures, Face, FaceEdge, Mesh, Node, SAME_PLACE};
 use crate::geometry::periodic::PeriodicBox;
@@ -35,7 +35,7 @@ impl Mesh<3> {
         groups: &[usize],
         spacing: f64,
         domain: &PeriodicBox<3>,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         BoundaryError::check_positive("wall spacing", spacing)?;
         domain.check()?;
         if groups.len() != surfaces.len() {
@@ -146,7 +146,7 @@ impl Mesh<3> {
         }
     }
 
-    fn check_count(&self) -> Result<(), BoundaryError> {
+    fn check_count(&self) -> Result<()> {
         let count = |wall: usize| self.elements.iter().filter(|t| t.wall == wall).count() as u64;
         let estimate = self.elements.len() as u64;
         if estimate <= MOST_ELEMENTS {
@@ -193,7 +193,7 @@ fn planar_pieces(
     groups: &[usize],
     spacing: f64,
     places: &mut Places,
-) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
+) -> Result<(Vec<Patch>, FaceContacts)> {
     let tolerance = SAME_PLACE * spacing;
     for surface in surfaces {
         check_input(surface)?;

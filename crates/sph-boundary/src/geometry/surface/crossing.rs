@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use sph_core::BoxTree;
 
 use super::drawn::{Drawn, Surface, no_thickness};
-use crate::error::{BoundaryError, MOST_PAIRS, Place};
+use crate::error::{BoundaryError, MOST_PAIRS, Place, Result};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::parallel::*;
@@ -20,7 +20,6 @@ pub(super) struct Contact {
     pub image: [i32; 3],
 }
 
-/// Intersection of two triangles.
 enum Intersection {
     /// They are apart or touch.
     Apart,
@@ -40,12 +39,12 @@ pub(super) fn contacts(
     drawn: &[Drawn],
     tolerance: f64,
     domain: &PeriodicBox<3>,
-) -> Result<Vec<Contact>, BoundaryError> {
+) -> Result<Vec<Contact>> {
     let boxes: Vec<_> = drawn.iter().map(|d| bounds(d.places)).collect();
     let tree = BoxTree::new(boxes.clone());
     let pairs = AtomicUsize::new(0);
     // Triangle `t`, moved, against all others; every pair of images comes up once.
-    let about = |t: usize| -> Result<Vec<Contact>, BoundaryError> {
+    let about = |t: usize| -> Result<Vec<Contact>> {
         let mut found = Vec::new();
         let images = domain.images_within(tree.bounds(), boxes[t]);
         for image in images.filter(|image| *image >= [0; 3]) {
@@ -104,7 +103,7 @@ fn touch(
     [a, b]: [&Drawn; 2],
     shift: Point,
     tolerance: f64,
-) -> Result<bool, BoundaryError> {
+) -> Result<bool> {
     let moved = a.places.map(|p| add(p, shift));
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
     let together = groups[a.wall] == groups[b.wall];

@@ -1,7 +1,7 @@
 //! Surfaces as drawn, and their triangles with the corners welded.
 
 use super::places::{HalfEdge, Places, Site, half_edges};
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::check_finite;
 use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
 use crate::parallel::*;
@@ -25,8 +25,7 @@ pub struct Surface {
     pub name: String,
     /// Points, m.
     pub points: Vec<[f64; 3]>,
-    /// Corners of the triangles among the points; the normal by the right-hand rule points into
-    /// the fluid.
+    /// Corners of the triangles among the points; the normal by the right-hand rule points into the fluid.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -40,7 +39,6 @@ impl Surface {
     }
 }
 
-/// A triangle as drawn.
 pub(super) struct Drawn {
     pub wall: usize,
     /// Its number in the wall.
@@ -52,7 +50,7 @@ pub(super) struct Drawn {
 }
 
 /// Coordinates that are not finite and corners that do not exist.
-pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
+pub(super) fn check_input(surface: &Surface) -> Result<()> {
     if surface.triangles.is_empty() {
         return Err(BoundaryError::unfit(&surface.name, "has no triangle"));
     }
@@ -69,7 +67,7 @@ pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
 }
 
 /// Surfaces of the size of a particle and walls of too many elements.
-pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), BoundaryError> {
+pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<()> {
     let mut needs = Vec::with_capacity(surfaces.len());
     for surface in surfaces {
         let corners = |t: &[u32; 3]| t.map(|c| surface.points[c as usize]);
@@ -97,7 +95,6 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Bou
     }
 }
 
-/// Walls of more elements than can be meant, and the one that has most.
 pub(super) fn too_many(wall: &str, own: u64, estimate: u64) -> BoundaryError {
     BoundaryError::Refused(format!(
         "the walls would be cut into about {estimate} triangles, {MOST_ELEMENTS} at most: `{wall}` alone needs {own}; \
@@ -111,7 +108,7 @@ pub(super) fn weld(
     wall: usize,
     group: usize,
     places: &mut Places,
-) -> Result<Vec<Drawn>, BoundaryError> {
+) -> Result<Vec<Drawn>> {
     // In the order of the points: the first of those at one place sets the place of its node.
     let mut used = vec![false; surface.points.len()];
     for corner in surface.triangles.iter().flatten() {
@@ -164,11 +161,7 @@ pub(super) fn weld(
 pub(super) type Neighbours = Vec<[Option<u32>; 3]>;
 
 /// Refuses triangles given twice, edges of more than two triangles and flipped neighbours.
-pub(super) fn neighbours(
-    name: &str,
-    drawn: &[Drawn],
-    places: &Places,
-) -> Result<Neighbours, BoundaryError> {
+pub(super) fn neighbours(name: &str, drawn: &[Drawn], places: &Places) -> Result<Neighbours> {
     check_repeated(name, drawn)?;
     let halves = half_edges(drawn.iter().map(|d| d.corners));
     let mut neighbours = vec![[None; 3]; drawn.len()];
@@ -213,7 +206,7 @@ pub(super) fn neighbours(
     Ok(neighbours)
 }
 
-fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), BoundaryError> {
+fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<()> {
     let key = |(t, d): (usize, &Drawn)| {
         let mut sorted = d.corners;
         sorted.sort_unstable();

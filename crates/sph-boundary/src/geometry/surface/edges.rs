@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, Site, edge_key};
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
@@ -200,7 +200,7 @@ pub(super) fn free_pieces(
     patches: &[Patch],
     cuts: &Cuts,
     places: &Places,
-) -> Result<Vec<[Site; 2]>, BoundaryError> {
+) -> Result<Vec<[Site; 2]>> {
     // Of every piece: the walls that travel it with and against its key.
     let mut walls: BTreeMap<EdgeKey, [Travelled; 2]> = BTreeMap::new();
     for patch in patches {

@@ -28,7 +28,6 @@ pub(super) enum Corner {
     Inside(u32),
 }
 
-/// A piece cut into triangles.
 #[derive(Debug, Default)]
 pub(super) struct Filling {
     pub inside: Vec<Point>,
@@ -57,9 +56,8 @@ impl Filling {
 
 /// Cuts a planar piece into triangles of about the spacing.
 ///
-/// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each
-/// other. Inside are the points of a square
-/// lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
+/// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each other. Inside are the
+/// points of a square lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
 /// a lattice that meets the nodes of all its sides. The reason if that is impossible.
 pub(super) fn fill(
     patch: &Patch,

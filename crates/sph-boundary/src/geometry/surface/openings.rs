@@ -7,13 +7,12 @@ use std::collections::HashMap;
 use sph_core::number::plain;
 use sph_core::{BoxTree, Sets};
 
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::mesh::{FreeEdge, Mesh, Opening};
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
 impl Mesh<3> {
-    /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces
-    /// around the openings.
+    /// Joins free edges that share a node; `pieces` are the first nodes of the straight pieces around the openings.
     pub(super) fn find_openings(&mut self, pieces: impl Iterator<Item = usize>) {
         let mut rims = Sets::new(self.nodes.len());
         self.free_edges.iter().for_each(|e| rims.join(e.nodes));
@@ -51,11 +50,7 @@ impl Mesh<3> {
     ///
     /// # Errors
     /// Names the wall, its opening, the nearest point and the place next to it. Lengths in metres.
-    pub fn check_free_edges(
-        &self,
-        points: &[Point],
-        kernel_radius: f64,
-    ) -> Result<(), BoundaryError> {
+    pub fn check_free_edges(&self, points: &[Point], kernel_radius: f64) -> Result<()> {
         if self.free_edges.is_empty() || points.is_empty() {
             return Ok(());
         }
@@ -103,7 +98,6 @@ struct Rims {
 }
 
 impl Rims {
-    /// For points within some bounds.
     fn new(mesh: &Mesh<3>, points: [Point; 2], radius: f64) -> Self {
         let domain = &mesh.domain;
         let mut all = Vec::new();

@@ -9,10 +9,9 @@ use crate::geometry::vector::{Point, add, bounds, norm, sub};
 const IMAGES: (f64, f64) = (5.0, 16.0);
 
 impl RayQueries<3> for Mesh<3> {
-    /// Seen along the ray, the point is within a triangle if it is on the left of all edges or on
-    /// the right of all. Both triangles at an edge compute the same number but for its sign, and a
-    /// point on an edge counts as moved by an infinitely small step, so that a ray through an edge
-    /// or a node meets a closed surface as often as one beside it.
+    /// Seen along the ray, the point is within a triangle if it is on the left of all edges or on the right of all.
+    /// Both triangles at an edge compute the same number but for its sign, and a point on an edge counts as moved by an
+    /// infinitely small step, so that a ray through an edge or a node meets a closed surface as often as one beside it.
     fn crossing(corners: [Point; 3], _: Point, along: usize) -> Option<(f64, i32)> {
         let [u, v] = [(along + 1) % 3, (along + 2) % 3];
         let side = |i: usize| {

@@ -9,7 +9,6 @@ use crate::geometry::vector::{Point, distance_to_segment, dot, sub};
 /// Neighbours whose normals differ by more are never one plane, at any size.
 const SAME_DIRECTION: f64 = 0.99;
 
-/// A planar piece of a wall.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub wall: usize,

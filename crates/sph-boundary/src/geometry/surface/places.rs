@@ -24,16 +24,14 @@ impl Site {
     }
 }
 
-/// An edge whichever way it is travelled and across whichever period it is drawn: from `first`,
-/// unmoved, to `second`.
+/// An edge whichever way it is travelled and across whichever period it is drawn: from `first`, unmoved, to `second`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct EdgeKey {
     pub first: u32,
     pub second: Site,
 }
 
-/// An edge between two sites: its key, whether it is travelled like the key, and where the key's
-/// first end is drawn.
+/// An edge between two sites: its key, whether it is travelled like the key, and where the key's first end is drawn.
 pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
     let apart = to.moved_back(from.image);
     let forward = (from.id, [0; 3]) < (to.id, apart.image);
@@ -45,11 +43,9 @@ pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
     (key, forward, first.image)
 }
 
-/// An edge of a triangle.
 pub(super) struct HalfEdge {
     pub key: EdgeKey,
     pub triangle: u32,
-    /// Its first corner.
     pub edge: u8,
     /// True if it is travelled like the key.
     pub forward: bool,
@@ -141,7 +137,6 @@ impl Places {
         None
     }
 
-    /// A point moved into the box along the periodic axes.
     fn wrapped(&self, point: Point) -> Point {
         let periods = self.domain.periods();
         std::array::from_fn(|k| match self.domain.periodic[k] {

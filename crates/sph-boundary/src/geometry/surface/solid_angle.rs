@@ -14,11 +14,10 @@ const FOLD: f64 = 1e-9;
 impl Mesh<3> {
     /// Sets θ and the size of all nodes; returns the edges that no other triangle continues.
     ///
-    /// The fluid at a node is a spherical polygon whose angles are those between triangles that
-    /// share an edge, measured in the fluid, β = π + δ. Its area is 2π + Σ δ (Gauss and Bonnet),
-    /// and θ = (2π + Σ δ) / 4π. Where several surfaces touch in a node their areas add up modulo
-    /// 4π. Around a node on a free edge the wall goes straight on: the folds that it has count
-    /// twice.
+    /// The fluid at a node is a spherical polygon whose angles are those between triangles that share an edge, measured
+    /// in the fluid, β = π + δ. Its area is 2π + Σ δ (Gauss and Bonnet), and θ = (2π + Σ δ) / 4π. Where several
+    /// surfaces touch in a node their areas add up modulo 4π. Around a node on a free edge the wall goes straight on:
+    /// the folds that it has count twice.
     pub(super) fn weigh(&mut self) -> Vec<FreeEdge> {
         let halves = half_edges(self.elements.iter().map(|triangle| {
             [0, 1, 2].map(|k| Site {

@@ -10,7 +10,6 @@ use super::places::{EdgeKey, Places, edge_key};
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::geometry::wedges::{AdjacentFace, bound_fluid, wedges};
 
-/// Contacts of walls face to face.
 #[derive(Default)]
 pub(super) struct FaceContacts {
     /// Edges of the pieces that touched, as they were.
@@ -63,7 +62,6 @@ pub(super) fn wetted_pieces(
     bound_fluid(parts, pieces.len(), &severed)
 }
 
-/// The pieces at an edge with their angles about it.
 fn around(
     pieces: &[Patch],
     places: &Places,
@@ -73,10 +71,7 @@ fn around(
     let along = sub(places.at(key.second), places.positions[key.first as usize]);
     let direction = |(piece, with): (usize, bool)| {
         let inwards = cross(pieces[piece].normal, along);
-        match with {
-            true => inwards,
-            false => inwards.map(|c| -c),
-        }
+        if with { inwards } else { inwards.map(|c| -c) }
     };
     let first = direction(run[0]);
     let beside = |&(piece, with): &(usize, bool)| {

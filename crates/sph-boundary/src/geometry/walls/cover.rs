@@ -15,12 +15,11 @@ const FAR: f64 = 2.8;
 
 /// Nodes near walls that move otherwise than their own, and the rest of their fluid.
 ///
-/// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
-/// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
-/// changes continuously with its position, and what is within half a spacing of both walls is
-/// stood for by the nodes of both. The visible share is the mean over samples of the ball of
-/// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
-/// H a ramp as wide as the samples are apart.
+/// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that moves otherwise (a gate
+/// that stands on a floor, a piston that sweeps it) may take a part, which changes continuously with its position, and
+/// what is within half a spacing of both walls is stood for by the nodes of both. The visible share is the mean over
+/// samples of the ball of H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances
+/// and H a ramp as wide as the samples are apart.
 #[derive(Debug, Default)]
 pub(crate) struct Cover<const D: usize> {
     /// Nodes within reach of other walls at the last search.

@@ -27,11 +27,9 @@ pub(crate) struct Planes {
     pub maps: Vec<Option<FaceMap>>,
     /// By triangle; none where every face is one contact.
     pub patches: Vec<Patch>,
-    /// The same.
     pub circles: Vec<Circle>,
 }
 
-/// A corner of a face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corner {
     /// Of its node, m.
@@ -69,7 +67,6 @@ impl Planes {
         all
     }
 
-    /// Follows walls that have moved.
     pub fn follow(&mut self, mesh: &Mesh<3>) {
         self.edges.clear();
         for face in &mesh.faces {
@@ -104,7 +101,6 @@ impl Planes {
 /// The triangles of a face as they are drawn, in coordinates that move with its first one, by square cells.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceMap {
-    /// Number of the first triangle.
     first: u32,
     /// Corners of every triangle, m.
     corners: Vec<[[f64; 2]; 3]>,
@@ -236,7 +232,6 @@ impl FaceMap {
     }
 }
 
-/// Barycentric coordinates of a place.
 fn weights([a, b, c]: &[[f64; 2]; 3], x: [f64; 2]) -> [f64; 3] {
     let (u, v, w) = (sub(*b, *a), sub(*c, *a), sub(x, *a));
     let whole = perp(u, v);

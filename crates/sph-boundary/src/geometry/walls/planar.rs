@@ -15,14 +15,13 @@ use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
-    Renormalisation2d, SeenElement, SegmentBatch, WallSpec, Walls,
+    Renormalisation2d, Result, SeenElement, SegmentBatch, WallSpec, Walls,
 };
 
 /// Two dummy particles nearer than this share of the spacing are one.
 const TOO_CLOSE: f64 = 0.7;
 
 impl Walls<2> {
-    /// Plane at which a segment keeps a particle off.
     fn hindrance(
         &self,
         (x, behind): (&Vect<2>, &[(u32, u32)]),
@@ -91,7 +90,7 @@ impl WallMesh<2> for Walls<2> {
         spacing: f64,
         reach: f64,
         domain: &PeriodicBox<2>,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         let line = |spec: &WallSpec<2>| match &spec.drawing {
             Drawing::Line(line) => check_points(line).map(|()| line.clone()),
             Drawing::Surface(surface) => Err(BoundaryError::unfit(
@@ -111,11 +110,11 @@ impl WallMesh<2> for Walls<2> {
         Ok(Walls::new(mesh, walls, reach))
     }
 
-    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d, BoundaryError> {
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d> {
         Renormalisation2d::new(shape, h)
     }
 
-    fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
+    fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<()> {
         if poses == self.mesh.poses {
             return Ok(());
         }
@@ -221,7 +220,7 @@ impl WallMesh<2> for Walls<2> {
         }
     }
 
-    fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<(), BoundaryError> {
+    fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<()> {
         let points: Vec<[f64; 2]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_ends(&points, radius)
     }

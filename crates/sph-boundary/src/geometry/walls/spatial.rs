@@ -14,7 +14,7 @@ use crate::integrals::spatial::Weights;
 use crate::treatment::groups::groups;
 use crate::{
     BoundaryError, Closest, Drawing, Feature, Mesh, NearElement, PeriodicBox, Pose,
-    Renormalisation3d, Surface, WallSpec, Walls,
+    Renormalisation3d, Result, Surface, WallSpec, Walls,
 };
 
 /// Two places nearer than this, relatively, are equally near.
@@ -37,7 +37,7 @@ impl WallMesh<3> for Walls<3> {
         spacing: f64,
         reach: f64,
         domain: &PeriodicBox<3>,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         let surface = |spec: &WallSpec<3>| match &spec.drawing {
             Drawing::Surface(surface) => Ok(surface.clone()),
             Drawing::Line(line) => Err(BoundaryError::unfit(
@@ -59,11 +59,11 @@ impl WallMesh<3> for Walls<3> {
         Ok(walls)
     }
 
-    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d> {
         Renormalisation3d::new(shape, h)
     }
 
-    fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
+    fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<()> {
         self.mesh.move_walls(poses)?;
         self.forget_places();
         self.planes.follow(&self.mesh);
@@ -199,7 +199,7 @@ impl WallMesh<3> for Walls<3> {
         self.mesh.contains((*point).into())
     }
 
-    fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<(), BoundaryError> {
+    fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<()> {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_edges(&points, radius)
     }
@@ -207,8 +207,7 @@ impl WallMesh<3> for Walls<3> {
     /// Nodes of the cubic lattice of half spacings, counted from the lower corner of the box around all
     /// walls, that are outside the fluid and within the support of a wall.
     ///
-    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones
-    /// get steps.
+    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones get steps.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
         let domain = &self.mesh.domain;
         let [low, high] = bounds(self.nodes().iter().map(|n| n.position));

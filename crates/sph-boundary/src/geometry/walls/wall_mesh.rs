@@ -8,8 +8,8 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::vector::dot;
 use crate::{
-    BoundaryError, Element, Gammas, NearElement, Node, PeriodicBox, Pose, SeenElement, Shells,
-    WallSpec, Walls,
+    Element, Gammas, NearElement, Node, PeriodicBox, Pose, Result, SeenElement, Shells, WallSpec,
+    Walls,
 };
 
 /// A direction in which a wall keeps a particle off.
@@ -48,16 +48,13 @@ pub trait WallMesh<const D: usize>:
         spacing: f64,
         reach: f64,
         domain: &PeriodicBox<D>,
-    ) -> Result<Self, BoundaryError>;
+    ) -> Result<Self>;
 
     /// Integrals of a kernel shape with a smoothing length, m.
     ///
     /// # Errors
     /// If the kernel cannot be integrated.
-    fn integrals(
-        shape: &PiecewisePolynomial,
-        smoothing_length: f64,
-    ) -> Result<Self::Integrals, BoundaryError>;
+    fn integrals(shape: &PiecewisePolynomial, smoothing_length: f64) -> Result<Self::Integrals>;
 
     /// The mesh and the search for its elements.
     fn walls(&self) -> &Walls<D> {
@@ -73,7 +70,7 @@ pub trait WallMesh<const D: usize>:
     ///
     /// # Errors
     /// If a wall cannot follow.
-    fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<(), BoundaryError>;
+    fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<()>;
 
     /// For every point the elements within a radius, or a few more: their number, and all of them one behind the other,
     /// each point's ascending.
@@ -126,7 +123,7 @@ pub trait WallMesh<const D: usize>:
     ///
     /// # Errors
     /// Names the wall and the place.
-    fn check_free_ends(&self, points: &[Vect<D>], radius: f64) -> Result<(), BoundaryError>;
+    fn check_free_ends(&self, points: &[Vect<D>], radius: f64) -> Result<()>;
 
     /// Places of dummy particles behind the walls with the index of their wall, m.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<D>)>;

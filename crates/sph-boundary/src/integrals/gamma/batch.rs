@@ -28,7 +28,6 @@ impl SegmentBatch {
         self.ends.clear();
     }
 
-    /// Ends a point's segments.
     pub(crate) fn end(&mut self) {
         self.ends.push(self.seen.len());
     }
@@ -67,7 +66,6 @@ impl Renormalisation2d {
         batch.seen.push((segment, distance));
     }
 
-    /// Weighs all segments of a batch.
     pub(crate) fn weigh(&self, batch: &mut SegmentBatch) {
         // The last vector is filled up with segments out of reach.
         let all = batch.height.len();
@@ -85,7 +83,6 @@ impl Renormalisation2d {
         });
     }
 
-    /// The integrals of a segment of a batch that was weighed.
     #[inline(always)]
     pub(crate) fn weighed(&self, batch: &SegmentBatch, k: usize) -> SegmentIntegral {
         self.finished(&batch.at(k), [batch.discs[0][k], batch.discs[1][k]])

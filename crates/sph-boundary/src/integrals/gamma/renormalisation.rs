@@ -4,7 +4,7 @@ use sph_kernels::PiecewisePolynomial;
 
 use super::primitives::{Knot, tables};
 use super::ring::Ring;
-use crate::error::BoundaryError;
+use crate::error::Result;
 use crate::integrals::normalisation::normalisation;
 
 /// Exact wall integrals of one kernel in two dimensions.
@@ -33,14 +33,12 @@ use crate::integrals::normalisation::normalisation;
 /// | ∇γ, ∫ w dS | gradient and an element's part, along n | 1/m |
 /// | a, y, q | signed distance to the line (> 0 in the fluid), abscissa on it, distance; over h | 1 |
 ///
-/// Valid for any piecewise polynomial and at every distance, touching included. The rounding of the
-/// closed form is amplified by the cancellation σ Σ|c_n| ρⁿ⁺¹/(n + 1) of the kernel's monomials;
-/// where that exceeds 60 (Wendland C4 and C6, not the splines) the outer part of the kernel is a
-/// ring integrated by Gauss–Legendre rules, which are exact to rounding there. Measured: γ and h∇γ
-/// within 4·10⁻¹⁴ of quadrature for all built-in kernels. The wall must be
-/// closed within the support. Source: the divergence theorem applied to the definitions (2.63)
-/// and (2.64) of Ghaïtanellis (2017); for Wendland C2, ∫ w dS is its Eq. (2.73) with 7/192 in
-/// place of 7/129.
+/// Valid for any piecewise polynomial and at every distance, touching included. The rounding of the closed form is
+/// amplified by the cancellation σ Σ|c_n| ρⁿ⁺¹/(n + 1) of the kernel's monomials; where that exceeds 60 (Wendland C4
+/// and C6, not the splines) the outer part of the kernel is a ring integrated by Gauss–Legendre rules, which are exact
+/// to rounding there. Measured: γ and h∇γ within 4·10⁻¹⁴ of quadrature for all built-in kernels. The wall must be
+/// closed within the support. Source: the divergence theorem applied to the definitions (2.63) and (2.64) of
+/// Ghaïtanellis (2017); for Wendland C2, ∫ w dS is its Eq. (2.73) with 7/192 in place of 7/129.
 #[derive(Clone, Debug)]
 pub struct Renormalisation2d {
     kernel_radius: f64,
@@ -59,7 +57,7 @@ impl Renormalisation2d {
     /// # Errors
     /// A smoothing length that is not positive, or breaks and pieces that do not fit together or
     /// have no positive integral over the plane.
-    pub fn new(shape: &PiecewisePolynomial, smoothing_length: f64) -> Result<Self, BoundaryError> {
+    pub fn new(shape: &PiecewisePolynomial, smoothing_length: f64) -> Result<Self> {
         let sigma = normalisation(shape, smoothing_length, 2)?;
         let (knots, rings) = tables(shape, sigma);
         let (per_h, support) = (1.0 / smoothing_length, shape.support());

@@ -40,7 +40,6 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// The ring of a piece of the kernel with the normalisation σ.
     pub fn new(
         shape: &PiecewisePolynomial,
         piece: &[f64],

@@ -57,7 +57,6 @@ impl Renormalisation2d {
         self.finished(&seen, self.discs(&seen))
     }
 
-    /// The segment in the frame of its line.
     #[inline(always)]
     pub(super) fn on_line(&self, start: [f64; 2], end: [f64; 2], normal: [f64; 2]) -> OnLine<f64> {
         let (x1, y1) = (start[0] * self.per_h, start[1] * self.per_h);
@@ -111,7 +110,6 @@ impl Renormalisation2d {
         [kernel, gamma - a * smooth]
     }
 
-    /// The integrals of one segment, whose discs are known.
     #[inline(always)]
     pub(super) fn finished(&self, seen: &OnLine<f64>, discs: [f64; 2]) -> SegmentIntegral {
         let (a, t) = (seen.height, seen.along);

@@ -35,9 +35,8 @@ pub(super) enum Clip {
 impl Edge {
     /// Corners relative to the point, their squared distances, the edge's squared length.
     ///
-    /// The perpendicular from the point to the line is the same bit for bit when the edge is
-    /// turned round. The angle between the two facets at the edge, as the point sees it, then comes
-    /// out exactly however close the point is.
+    /// The perpendicular from the point to the line is the same bit for bit when the edge is turned round. The angle
+    /// between the two facets at the edge, as the point sees it, then comes out exactly however close the point is.
     #[inline]
     pub fn seen(corners: [Point; 2], r2: [f64; 2], whole: Point, l2: f64, n: Point) -> Self {
         let [r1, r2_] = corners;

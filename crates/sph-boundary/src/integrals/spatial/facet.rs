@@ -83,7 +83,6 @@ impl Renormalisation3d {
     }
 }
 
-/// Sums over the edges of one facet.
 struct Facet<'a> {
     of: &'a Renormalisation3d,
     normal: Point,
@@ -97,7 +96,6 @@ struct Facet<'a> {
     moment: Point,
     /// φ of the edges outside the support.
     far: Winding,
-    /// Squared distance of the nearest edge.
     nearest: f64,
     /// a as the nearest edge has it, which decides the sign.
     side: f64,

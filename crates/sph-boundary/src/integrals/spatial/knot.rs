@@ -37,7 +37,6 @@ struct Term {
     factors: [f64; 2],
 }
 
-/// One end of a clipped edge.
 pub(super) type End = crate::integrals::normalisation::End<f64>;
 
 /// Σ b_n U_{n+2} of both sums, split by the factor that is still to come.

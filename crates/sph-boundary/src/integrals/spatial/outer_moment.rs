@@ -2,7 +2,6 @@
 
 use sph_kernels::PiecewisePolynomial;
 
-/// Intervals of the table.
 const INTERVALS: usize = 256;
 
 /// Gauss–Legendre abscissae over half the interval, and weights; exact to degree 9.

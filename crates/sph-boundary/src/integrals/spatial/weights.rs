@@ -125,13 +125,12 @@ impl Weights {
 
     /// ∫ w dS over the triangles that were found, 1/m: by quadrature where that is accurate, else exactly.
     ///
-    /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being
-    /// known from [`polygon`](Renormalisation3d::polygon). Six points where the centre is a leg or more away,
-    /// twelve for half a leg, and the closed form below that and for triangles larger than h.
-    /// Measured for right isosceles triangles with legs h/2: within 7·10⁻⁵ w(0) · area; of the
-    /// triangle's own largest w · area, 10⁻⁴ (3·10⁻⁴ for Wendland C6) unless a corner is within a
-    /// leg of the support's end. With legs 2h/3: within 10⁻⁴ w(0) · area for the Wendland kernels
-    /// and the quintic spline, 2·10⁻⁴ for the cubic one.
+    /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being known from
+    /// [`polygon`](Renormalisation3d::polygon). Six points where the centre is a leg or more away, twelve for half a
+    /// leg, and the closed form below that and for triangles larger than h. Measured for right isosceles triangles with
+    /// legs h/2: within 7·10⁻⁵ w(0) · area; of the triangle's own largest w · area, 10⁻⁴ (3·10⁻⁴ for Wendland C6)
+    /// unless a corner is within a leg of the support's end. With legs 2h/3: within 10⁻⁴ w(0) · area for the Wendland
+    /// kernels and the quintic spline, 2·10⁻⁴ for the cubic one.
     pub(crate) fn weigh(&mut self, of: &Renormalisation3d, patches: &[Patch], foot: &Foot) {
         let n = self.near.len();
         let room = n.next_multiple_of(MOST);
@@ -170,7 +169,6 @@ impl Weights {
         }
     }
 
-    /// The triangles that were found with their weights, 1/m.
     pub(crate) fn all(&self) -> (&[u32], &[f64]) {
         (&self.near, &self.weights[..self.near.len()])
     }

@@ -44,7 +44,6 @@ impl Winding {
         (self.cos, self.sin) = (c * scale, s * scale);
     }
 
-    /// The sum.
     #[inline]
     pub fn angle(&self) -> f64 {
         // −0 is in the upper half plane too.
