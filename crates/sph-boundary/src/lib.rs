@@ -40,8 +40,8 @@ mod scale;
 #[cfg(feature = "plugins")]
 mod treatment;
 
+pub use error::BoundaryError;
 pub(crate) use error::Result;
-pub use error::{BoundaryError, Place};
 pub use geometry::drawing::Drawing;
 pub use geometry::mesh::{
     Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, Node, Opening,

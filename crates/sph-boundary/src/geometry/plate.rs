@@ -1,8 +1,7 @@
 //! The outline of a thin plate.
 
-use crate::error::{BoundaryError, Result};
 use crate::geometry::checks::check_points;
-use crate::geometry::polyline::Polyline;
+use crate::{BoundaryError, Polyline, Result};
 
 /// Sharpest fold that can be mitred: 1 + cos(turn) must exceed this (a turn of about 162°).
 const MITRE_LIMIT: f64 = 0.05;
@@ -24,8 +23,7 @@ pub fn thin_plate(
     let middle = Polyline::open(name, points.to_vec());
     check_points(&middle)?;
     if !(thickness >= 0.0 && thickness.is_finite()) {
-        let (name, value) = ("plate thickness", thickness);
-        return Err(BoundaryError::NotPositive { name, value });
+        return Err(BoundaryError::not_positive("plate thickness", thickness));
     }
     let last = points.len() - 1;
     if thickness == 0.0 {
@@ -41,7 +39,7 @@ pub fn thin_plate(
         let after = normals[i.min(last - 1)];
         let bend = 1.0 + before[0] * after[0] + before[1] * after[1];
         if bend < MITRE_LIMIT {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "plate `{}` turns too sharply at point {i} to be given a thickness",
                 middle.name
             )));

@@ -45,9 +45,7 @@ pub(crate) fn without_shared(
             }
         });
         if whole.is_break() {
-            let wall = lines[k].name.clone();
-            let what = "edges";
-            return Err(BoundaryError::Tangled { what, wall });
+            return Err(BoundaryError::tangled("edges", &lines[k].name));
         }
         near.sort_unstable();
         let faces = near.iter().map(|n| edges[*n].1);

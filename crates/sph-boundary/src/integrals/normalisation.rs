@@ -2,7 +2,7 @@
 
 use sph_kernels::{PiecewisePolynomial, algebra};
 
-use crate::error::{BoundaryError, Result};
+use crate::{BoundaryError, Result};
 
 /// σ of a kernel shape that can be integrated, with a smoothing length h, m, that is one.
 ///
@@ -14,12 +14,11 @@ pub(crate) fn normalisation(
     dimension: usize,
 ) -> Result<f64> {
     BoundaryError::check_positive("smoothing length", smoothing_length)?;
-    let unfit = |reason| BoundaryError::Kernel { reason };
-    shape.check().map_err(unfit)?;
+    shape.check().map_err(BoundaryError::kernel)?;
     let sigma = shape.normalisation(dimension);
     match sigma > 0.0 && sigma.is_finite() {
         true => Ok(sigma),
-        false => Err(unfit(format!(
+        false => Err(BoundaryError::kernel(format!(
             "its integral in {dimension} dimensions is not positive"
         ))),
     }

@@ -3,9 +3,8 @@
 use sph_core::Vect;
 use sph_neighbours::Domain;
 
-use crate::Element;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::plane::{PlaneScale, fade};
+use crate::{Element, WallMesh};
 
 /// Cosine of the angle between normals up to which faces are square to each other.
 const SQUARE: f64 = 1e-6;

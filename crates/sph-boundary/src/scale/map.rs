@@ -7,11 +7,10 @@ use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::unrolled;
 use crate::scale::plane::{REACH, fade};
 use crate::scale::spline::{Grid, interpolate, value};
-use crate::{BoundaryError, Result, SeenElement};
+use crate::{BoundaryError, Result, SeenElement, WallMesh};
 
 /// Nodes of the grid per smoothing length.
 const NODES: f64 = 4.0;

@@ -6,11 +6,10 @@ use rayon::prelude::*;
 use sph_core::{Sets, Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::flat::{FlatFace, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
 use crate::scale::plane::{PlaneScale, REACH};
-use crate::{PeriodicBox, Result, WallSetup, WallSpec};
+use crate::{PeriodicBox, Result, WallMesh, WallSetup, WallSpec};
 
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;

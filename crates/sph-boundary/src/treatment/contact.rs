@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 
 use crate::geometry::vector::{bounds, widened};
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
-use crate::{Element, Node, Touch, WallSpec};
+use crate::{Element, Node, Touch, WallMesh, WallSpec};
 
 /// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
 /// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.

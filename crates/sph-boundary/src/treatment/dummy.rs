@@ -4,15 +4,14 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{LanePair, PairSum, Particles, WallSet, World, add_scaled, shepard, splat};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::treatment::shepard::EffectiveGravity;
 use crate::{
-    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallCondition, WallEntry, WallSetup,
-    WallSpec, WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallCondition, WallEntry, WallMesh,
+    WallSetup, WallSpec, WallStates,
 };
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.

@@ -4,13 +4,11 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{ContactBlock, WallSet, World};
 
-use crate::geometry::shells::Gammas;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
 use crate::treatment::stage_error;
-use crate::{BoundaryError, Result, WallSetup};
+use crate::{BoundaryError, Gammas, Result, WallMesh, WallSetup};
 
 /// Walls of elements as both treatments have them: mesh, integrals, contacts.
 #[derive(Debug)]
@@ -172,11 +170,10 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         size: f64,
     ) -> Result<(Self, WallSet<D>)> {
         let shape = setup.kernel.polynomial().ok_or_else(|| {
-            let name = setup.kernel.name();
-            let reason = format!(
-                "`{name}` gives no radial moments, and semi-analytical walls integrate them"
-            );
-            BoundaryError::Kernel { reason }
+            BoundaryError::kernel(format!(
+                "`{}` gives no radial moments, and semi-analytical walls integrate them",
+                setup.kernel.name()
+            ))
         })?;
         let integrals = M::integrals(shape, setup.smoothing_length)?;
         let support = setup.kernel.support() * setup.smoothing_length;

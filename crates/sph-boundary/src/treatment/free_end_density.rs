@@ -4,11 +4,9 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_neighbours::{ContactBlock, HiddenPairs, World};
 
-use crate::SeenElement;
-use crate::geometry::shells::Gammas;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
+use crate::{Gammas, SeenElement, WallMesh};
 
 /// Position of a particle at the end of a drift, seen from the wall near it.
 struct DriftEnd<const D: usize> {

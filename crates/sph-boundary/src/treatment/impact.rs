@@ -5,10 +5,9 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{FreeBody, WallForce, World};
 
-use crate::NearElement;
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
+use crate::{Hindrance, NearElement, WallMesh};
 
 /// A particle is not let nearer to a wall than this share of the spacing.
 ///

@@ -4,10 +4,9 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::groups::{is_piece, pieces};
 use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, Mover, Result, RigidState, WallSpec, WallStates};
+use crate::{BoundaryError, Load, Mover, Result, RigidState, WallMesh, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
@@ -65,7 +64,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
             if highest.is_nan() || highest >= HIGHEST * grown.fade {
                 let (wall, height) = (self.name(grown.walls[0] as usize), grown.fade);
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "the bed `{wall}` has risen by {highest:.3} m, and walls that stand in it stretch over {height} m: \
                      give `[wall.{wall}.erodible]` a larger `stretch`"
                 )));
@@ -79,7 +78,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     fn check_dry(&self, loads: &[Load<D>]) -> Result<()> {
         for (k, touch) in self.touches().into_iter().enumerate() {
             if touch.is_some_and(|t| t.dry) && loads[k].force != Vect::<D>::zeros() {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "fluid acts on the body `{}`, which has less than a fiftieth of its density: one particle of it \
                      would throw the body; give it more `density`",
                     self.name(k)
@@ -116,8 +115,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         for (k, mover) in self.movers() {
             let state = mover.next(&from[k], &loads[k], time, dt);
             if RigidState::<D>::from_numbers(&state.numbers()).is_none() {
-                let wall = self.name(k);
-                return Err(BoundaryError::Motion { wall });
+                return Err(BoundaryError::motion(self.name(k)));
             }
             states[pieces(&self.specs, k)].fill(state);
         }
@@ -180,9 +178,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let own = self.movers().count() * RigidState::<D>::NUMBERS;
             let (own, levels) = numbers.split_at(own.min(numbers.len()));
             let mut parts = own.chunks(RigidState::<D>::NUMBERS);
-            let unsound = |wall: usize| BoundaryError::Motion {
-                wall: self.name(wall),
-            };
+            let unsound = |wall: usize| BoundaryError::motion(self.name(wall));
             for (k, _) in self.movers() {
                 let part = parts.next().and_then(RigidState::from_numbers);
                 let state = part.ok_or_else(|| unsound(k))?;

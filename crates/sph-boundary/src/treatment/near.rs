@@ -4,10 +4,9 @@ use rayon::prelude::*;
 use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::{Hidden, HiddenPairs, World};
 
-use crate::NearElement;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
+use crate::{NearElement, WallMesh};
 
 /// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.

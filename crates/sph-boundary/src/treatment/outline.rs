@@ -55,13 +55,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
         for spec in whole.map(|k| &setup.walls[k]) {
             if !spec.motion.is_sound() {
-                let wall = spec.drawing.name().to_string();
-                return Err(BoundaryError::Motion { wall });
+                return Err(BoundaryError::motion(spec.drawing.name()));
             }
             let slip = spec.condition.slip_length();
             if !(slip >= 0.0 && slip.is_finite()) {
-                let name = "slip length";
-                return Err(BoundaryError::NotPositive { name, value: slip });
+                return Err(BoundaryError::not_positive("slip length", slip));
             }
         }
         let reach = FARTHEST * support;

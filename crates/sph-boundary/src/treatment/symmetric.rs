@@ -3,14 +3,13 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::{
-    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec,
-    WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallMesh, WallSetup,
+    WallSpec, WallStates,
 };
 
 /// Least distance of particles from walls over the spacing: that of films, which the density sum lets sink.

@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::contact::{DEPTH, SurfacePair, ordered};
 use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, Result, RigidState, Touch};
+use crate::{BoundaryError, Load, Result, RigidState, Touch, WallMesh};
 
 /// Both surfaces of a pair are looked at from the other.
 const SHARE: f64 = 0.5;

@@ -3,12 +3,11 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::element_size;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::shaped::shaped_by_outline;
-use crate::{PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
+use crate::{PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallMesh, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
 /// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).

@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, joints};
-use crate::error::{BoundaryError, Result};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::{FreeEnd, Polyline, WallEnd};
 use crate::geometry::vector::{dot, perp, sub};
+use crate::{FreeEnd, PeriodicBox, Polyline, WallEnd};
 
 /// Two segments folded onto each other within this angle leave the fluid all around their node.
 const FOLD: f64 = 1e-9;
@@ -147,14 +146,13 @@ impl Mesh<2> {
             let distances = points.iter().map(distance).enumerate();
             let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
-                return Err(BoundaryError::FreeEndInReach {
-                    wall: self.walls[free.wall].clone(),
-                    end: free.end,
-                    at: position.into(),
-                    particle,
-                    distance,
-                    radius: kernel_radius,
-                });
+                return Err(BoundaryError(format!(
+                    "the {} end of wall `{}` at {} is free and particle {particle} is {distance} m away, within the \
+                     kernel radius {kernel_radius} m: close the wall or extend it",
+                    free.end,
+                    self.walls[free.wall],
+                    Place::from(position)
+                )));
             }
         }
         Ok(())

@@ -3,9 +3,8 @@
 use sph_core::BoxTree;
 
 use crate::error::{BoundaryError, Place, Result};
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::{Polyline, WallEnd};
 use crate::geometry::vector::{add, sub, widened};
+use crate::{PeriodicBox, Polyline, WallEnd};
 
 /// Continuation of a wall behind its last point: the first point of a wall, moved by whole periods.
 pub(super) type Continuation = Option<(usize, [i32; 2])>;
@@ -49,7 +48,7 @@ pub(super) fn joints(
         match met.as_slice() {
             [] => {}
             [(other, _)] if other.end == end.end => {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "the {} end of wall `{}` meets the {} end of wall `{}` at {at}: their directions of travel put the \
                      fluid on opposite sides, reverse one of them",
                     end.end,
@@ -66,7 +65,7 @@ pub(super) fn joints(
             }
             more => {
                 let (count, wall) = (more.len() + 1, name(end));
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "{count} ends of walls meet at {at}, the first of wall `{wall}`: only two can be joined"
                 )));
             }

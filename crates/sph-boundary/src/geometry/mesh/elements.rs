@@ -6,11 +6,8 @@ use sph_core::bed::Bed;
 
 use super::near_element::NearElement;
 use super::sides::Sides;
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::FreeEnd;
 use crate::geometry::vector::{Point, add, sub};
-use crate::rigid::motion::RigidMotion;
-use crate::rigid::pose::Pose;
+use crate::{FreeEnd, PeriodicBox, Pose, RigidMotion};
 
 /// A node of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]

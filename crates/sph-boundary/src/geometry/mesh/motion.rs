@@ -61,7 +61,7 @@ where
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());
             let why = format!("{given} pose(s) given for {walls} wall(s)");
-            return Err(BoundaryError::Refused(why));
+            return Err(BoundaryError(why));
         }
         let name = |wall: usize| &self.walls[wall];
         let mut firsts = HashMap::new();
@@ -69,7 +69,7 @@ where
             let first = *firsts.entry(group).or_insert(wall);
             if poses[first] != poses[wall] {
                 let (wall, other) = (name(first), name(wall));
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "walls `{wall}` and `{other}` move together and cannot be given different motions"
                 )));
             }
@@ -78,7 +78,7 @@ where
             let (wall, pose) = (element.wall, &poses[element.wall]);
             let other = |node: &&usize| poses[self.nodes[**node].wall] != *pose;
             if let Some(&joint) = element.nodes.iter().find(other) {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "walls `{}` and `{}` are joined at {} and cannot move differently",
                     name(wall),
                     name(self.nodes[joint].wall),

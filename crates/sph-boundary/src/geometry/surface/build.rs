@@ -41,7 +41,7 @@ impl Mesh<3> {
         if groups.len() != surfaces.len() {
             let (given, walls) = (groups.len(), surfaces.len());
             let why = format!("{given} group(s) given for {walls} wall(s)");
-            return Err(BoundaryError::Refused(why));
+            return Err(BoundaryError(why));
         }
         let tolerance = SAME_PLACE * spacing;
         let mut places = Places::new(tolerance, domain);
@@ -53,7 +53,7 @@ impl Mesh<3> {
         patches.retain(|_| kept.next() == Some(&true));
         let covered = |(wall, _): &(usize, &Surface)| !patches.iter().any(|p| p.wall == *wall);
         if let Some((_, surface)) = surfaces.iter().enumerate().find(covered) {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "nothing is left of wall `{}`: other walls cover all of it, or face away from its edges: turn the one \
                  that faces the other way, leave the wall out, or give a plate of two sides a thickness",
                 surface.name
@@ -81,7 +81,7 @@ impl Mesh<3> {
         for (patch, filling) in patches.iter().zip(filled) {
             let filling = filling.map_err(|reason| {
                 let (wall, at) = (&surfaces[patch.wall].name, places.at(patch.boundary[0][0]));
-                BoundaryError::Refused(format!(
+                BoundaryError(format!(
                     "the planar piece of wall `{wall}` at {} cannot be cut into triangles: {reason}",
                     Place::from(at)
                 ))

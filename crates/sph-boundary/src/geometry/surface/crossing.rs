@@ -60,9 +60,8 @@ pub(super) fn contacts(
                 }
             });
             if whole.is_break() {
-                let wall = surfaces[drawn[t].wall].name.clone();
-                let what = "triangles";
-                return Err(BoundaryError::Tangled { what, wall });
+                let wall = &surfaces[drawn[t].wall].name;
+                return Err(BoundaryError::tangled("triangles", wall));
             }
         }
         found.sort_unstable();
@@ -107,25 +106,17 @@ fn touch(
     let moved = a.places.map(|p| add(p, shift));
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
     let together = groups[a.wall] == groups[b.wall];
-    let names = || [a, b].map(|d| surfaces[d.wall].name.clone());
     match meeting {
         Intersection::Cross(at) => {
-            let [wall, other] = names();
-            Err(BoundaryError::Crossing {
-                wall,
-                what: "triangle",
-                number: a.index,
-                other,
-                other_number: b.index,
-                at: at.into(),
-            })
+            let both = [a, b].map(|d| (&surfaces[d.wall].name[..], d.index));
+            Err(BoundaryError::crossing("triangle", both, at))
         }
         Intersection::Cover {
             opposite: false,
             at,
         } if together => {
-            let ([wall, other], at) = (names(), Place::from(at));
-            Err(BoundaryError::Refused(format!(
+            let ([wall, other], at) = ([a, b].map(|d| &surfaces[d.wall].name), Place::from(at));
+            Err(BoundaryError(format!(
                 "triangle {} of wall `{wall}` and triangle {} of wall `{other}` cover each other near {at}: that piece \
                  is drawn twice",
                 a.index, b.index

@@ -96,7 +96,7 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<()> {
 }
 
 pub(super) fn too_many(wall: &str, own: u64, estimate: u64) -> BoundaryError {
-    BoundaryError::Refused(format!(
+    BoundaryError(format!(
         "the walls would be cut into about {estimate} triangles, {MOST_ELEMENTS} at most: `{wall}` alone needs {own}; \
          check the unit of length or use a coarser spacing"
     ))

@@ -224,7 +224,7 @@ pub(super) fn free_pieces(
             1 => free.push(more[0].1),
             _ => {
                 let [a, b] = more[0].1.map(|c| places.at(c));
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "walls `{}` and `{}` meet in an edge at {} but put the fluid on opposite sides: reverse the \
                      triangles of one of them",
                     surfaces[more[0].0].name,

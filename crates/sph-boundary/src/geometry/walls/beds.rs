@@ -107,7 +107,7 @@ fn grid<const D: usize>(
         }
         let cells = (length / erodible.cell).round().max(1.0);
         if cells * grid.count[0] as f64 > MOST_PLACES as f64 {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "the bed `{}` has {} places, more than {MOST_PLACES}: give it a larger `cell`",
                 erodible.wall,
                 cells * grid.count[0] as f64

@@ -3,8 +3,7 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::{NearElement, SeenElement};
+use crate::{NearElement, SeenElement, WallMesh};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;

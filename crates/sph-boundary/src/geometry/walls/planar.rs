@@ -8,14 +8,12 @@ use sph_neighbours::ContactBlock;
 use crate::geometry::checks::check_points;
 use crate::geometry::junctions::bounding;
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::shells::Gammas;
 use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
-    Renormalisation2d, Result, SeenElement, SegmentBatch, WallSpec, Walls,
+    BoundaryError, Drawing, GammaSum, Gammas, Hindrance, Mesh, NearElement, PeriodicBox, Polyline,
+    Pose, Renormalisation2d, Result, SeenElement, SegmentBatch, WallMesh, WallSpec, Walls,
 };
 
 /// Two dummy particles nearer than this share of the spacing are one.

@@ -5,16 +5,13 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::shells::Gammas;
 use crate::geometry::vector::bounds;
 use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
-use crate::integrals::spatial::Weights;
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Closest, Drawing, Feature, Mesh, NearElement, PeriodicBox, Pose,
-    Renormalisation3d, Result, Surface, WallSpec, Walls,
+    BoundaryError, Closest, Drawing, Feature, Gammas, Hindrance, Mesh, NearElement, PeriodicBox,
+    Pose, Renormalisation3d, Result, Surface, WallMesh, WallSpec, Walls, Weights,
 };
 
 /// Two places nearer than this, relatively, are equally near.
