@@ -44,8 +44,8 @@ pub use error::BoundaryError;
 pub(crate) use error::Result;
 pub use geometry::drawing::Drawing;
 pub use geometry::mesh::{
-    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, Node, Opening,
-    SeenElement,
+    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, NearRows, Node,
+    Opening, SeenElement,
 };
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;
@@ -62,7 +62,7 @@ pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::walls::wall_mesh::{Hindrance, WallMesh},
+    geometry::walls::wall_mesh::{Hindrance, View, WallMesh},
     geometry::walls::{PlanarWalls, SpatialWalls, Walls},
     rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
     rigid::rigid_state::{Movement, RigidState},

@@ -22,7 +22,7 @@ pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub use grid::Grid;
 pub(crate) use inside::{RayQueries, SAME_DISTANCE, SAME_HEIGHT};
 pub(crate) use motion::{ElementMeasures, bed_of};
-pub use near_element::NearElement;
+pub use near_element::{NearElement, NearRows};
 pub(crate) use sides::Sides;
 
 /// Points closer than this part of the spacing are the same place, and so much may a point lie off

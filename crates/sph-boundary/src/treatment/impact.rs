@@ -7,7 +7,7 @@ use sph_neighbours::{FreeBody, WallForce, World};
 
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
-use crate::{Hindrance, NearElement, WallMesh};
+use crate::{Hindrance, NearElement, View, WallMesh};
 
 /// A particle is not let nearer to a wall than this share of the spacing.
 ///
@@ -48,7 +48,7 @@ impl<const D: usize> NearLists<D> {
             fastest,
             dt,
         };
-        let mut changed: Vec<(usize, StoppedVelocity<D>)> = self
+        let mut changed: Vec<(usize, Stopped<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -88,7 +88,7 @@ impl<const D: usize> NearLists<D> {
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
-    changed: &mut [(usize, StoppedVelocity<D>)],
+    changed: &mut [(usize, Stopped<D>)],
 ) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
@@ -137,7 +137,7 @@ fn give_way<const D: usize>(
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
-    changed: &[(usize, StoppedVelocity<D>)],
+    changed: &[(usize, Stopped<D>)],
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let mass = world.free.get(fields::MASS)?;
@@ -163,7 +163,7 @@ fn blows<const D: usize, M: WallMesh<D>>(
 
 /// The velocity of a particle that walls have stopped, and the change by each of them, m/s, with the whole periods to
 /// the wall.
-struct StoppedVelocity<const D: usize> {
+struct Stopped<const D: usize> {
     velocity: Vect<D>,
     /// Largest speed after any of the changes, m/s.
     fastest: f64,
@@ -185,12 +185,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     ///
     /// Up to a speed v, only places within the least distance + Δt v hinder. Walls at rest make no particle faster; where
     /// moving ones do, farther places are searched as well.
-    fn stopped(
-        &self,
-        here: (&Vect<D>, &[(u32, u32)]),
-        u: Vect<D>,
-        row: &[NearElement<D>],
-    ) -> Option<StoppedVelocity<D>> {
+    fn stopped(&self, here: View<'_, D>, u: Vect<D>, row: &[NearElement<D>]) -> Option<Stopped<D>> {
         let all = 4.0 * self.spacing;
         let speed = 1.000_001 * (u.norm() + self.fastest);
         let reach = self.least + self.dt * speed;
@@ -204,20 +199,19 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
 
     fn corrected(
         &self,
-        here: (&Vect<D>, &[(u32, u32)]),
+        here: View<'_, D>,
         u: Vect<D>,
         row: &[NearElement<D>],
         reach: f64,
-    ) -> Option<StoppedVelocity<D>> {
+    ) -> Option<Stopped<D>> {
         let mesh = &self.outline.mesh;
-        let mut hindrances = Vec::new();
-        mesh.hindrances(here, row, reach, &mut hindrances);
+        let mut hindrances = mesh.hindrances(here, row, reach);
         hindrances.retain(|h| !self.outline.specs[h.wall].open);
         if hindrances.is_empty() {
             return None;
         }
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = StoppedVelocity {
+        let mut new = Stopped {
             velocity: u,
             fastest: 0.0,
             pushes: Vec::new(),

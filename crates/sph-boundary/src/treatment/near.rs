@@ -6,7 +6,7 @@ use sph_neighbours::{Hidden, HiddenPairs, World};
 
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
-use crate::{NearElement, WallMesh};
+use crate::{NearElement, NearRows, WallMesh};
 
 /// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
@@ -55,8 +55,7 @@ struct Scratch<const D: usize> {
 #[derive(Debug, Default)]
 struct TaskResults<const D: usize> {
     places: Vec<Vect<D>>,
-    counts: Vec<u32>,
-    elements: Vec<NearElement<D>>,
+    rows: NearRows<D>,
 }
 
 /// Elements of a particle, and its position when they were found.
@@ -179,16 +178,15 @@ impl<const D: usize> NearLists<D> {
             found.places.clear();
             let places = batch.iter().map(|&i| positions[i as usize]);
             found.places.extend(places);
-            found.counts.clear();
-            found.elements.clear();
-            let (counts, elements) = (&mut found.counts, &mut found.elements);
-            mesh.near_all(&found.places, radius, counts, elements);
+            found.rows.counts.clear();
+            found.rows.elements.clear();
+            mesh.near_all(&found.places, radius, &mut found.rows);
             // Elements at free ends are looked at one by one.
             if !mesh.shells().any() {
-                mesh.merge(counts, elements);
+                mesh.merge(&mut found.rows);
             }
         });
-        let more = found.iter().map(|found| found.elements.len()).sum();
+        let more = found.iter().map(|found| found.rows.elements.len()).sum();
         self.make_room(more);
         // A search for most particles comes once: its memory is not kept, and given back on the way.
         let most = 2 * room.stale.len() > self.rows.len();
@@ -197,11 +195,12 @@ impl<const D: usize> NearLists<D> {
         }
         let mut from = self.elements.len() as u32;
         for (batch, found) in room.stale.chunks(BATCH).zip(&mut *found) {
-            self.elements.extend_from_slice(&found.elements);
+            let rows = &mut found.rows;
+            self.elements.extend_from_slice(&rows.elements);
             if most {
-                found.elements = Vec::new();
+                rows.elements = Vec::new();
             }
-            for (&i, &count) in batch.iter().zip(&found.counts) {
+            for (&i, &count) in batch.iter().zip(&rows.counts) {
                 self.rows[i as usize] = Row {
                     place: positions[i as usize],
                     travelled,

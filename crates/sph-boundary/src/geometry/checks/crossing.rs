@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use sph_core::BoxTree;
 
-use crate::error::{BoundaryError, MOST_PAIRS, Result};
+use crate::error::{BoundaryError, Result};
 use crate::geometry::vector::{add, along, bounds, perp, sub};
 use crate::{PeriodicBox, Polyline};
 
@@ -18,17 +18,9 @@ struct Edge {
 
 /// Refuses two edges, of one wall or of two, that cross properly; touching is allowed.
 ///
-/// An end within `tolerance` metres of the other edge's line touches it. Returns how many pairs of edges were
-/// held against each other: those whose boxes overlap.
+/// An end within `tolerance` metres of the other edge's line touches it. Returns how many pairs of edges were held
+/// against each other: those whose boxes overlap, `most` of them.
 pub(crate) fn check_crossings(
-    polylines: &[Polyline],
-    tolerance: f64,
-    domain: &PeriodicBox,
-) -> Result<usize> {
-    compared(polylines, tolerance, domain, MOST_PAIRS)
-}
-
-fn compared(
     polylines: &[Polyline],
     tolerance: f64,
     domain: &PeriodicBox,
@@ -107,6 +99,7 @@ fn distance_to_line(p: [f64; 2], c: [f64; 2], d: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::MOST_PAIRS;
 
     /// A comb along x or along y with teeth of some length.
     fn comb(n: usize, along: usize, tooth: f64) -> Polyline {
@@ -123,13 +116,13 @@ mod tests {
         let none = PeriodicBox::none();
         for (along, tooth) in [(0, 1.0), (0, 1000.0), (1, 1000.0)] {
             let n = 20_000;
-            let pairs = check_crossings(&[comb(n, along, tooth)], 1e-6, &none).unwrap();
+            let pairs = check_crossings(&[comb(n, along, tooth)], 1e-6, &none, MOST_PAIRS).unwrap();
             // An edge touches the boxes of the one before and of the one after.
             assert_eq!(pairs, n - 2, "{tooth} along {along}");
         }
         let mut crossed = comb(20_000, 0, 1000.0);
         crossed.points.extend([[10_001.0, 500.5], [-1.0, 500.5]]);
-        let found = check_crossings(&[crossed], 1e-6, &none).unwrap_err();
+        let found = check_crossings(&[crossed], 1e-6, &none, MOST_PAIRS).unwrap_err();
         let first = found.0.starts_with("edge 0 of wall `comb` crosses edge");
         assert!(first, "{found}");
     }
@@ -141,7 +134,7 @@ mod tests {
             Polyline::open("hatch", vec![[x, 0.0], [x + 1e6, 1e6]])
         };
         let lines: Vec<_> = (0..300).map(line).collect();
-        let most = |most| compared(&lines, 1e-6, &PeriodicBox::none(), most);
+        let most = |most| check_crossings(&lines, 1e-6, &PeriodicBox::none(), most);
         // Every box overlaps every other.
         assert_eq!(most(300 * 299 / 2), Ok(300 * 299 / 2));
         let found = most(300 * 299 / 2 - 1).unwrap_err();

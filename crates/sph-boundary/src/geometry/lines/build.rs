@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, joints};
-use crate::error::{BoundaryError, Place, Result};
+use crate::error::{BoundaryError, MOST_PAIRS, Place, Result};
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
 use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
 use crate::geometry::vector::{dot, perp, sub};
@@ -37,7 +37,7 @@ impl Mesh<2> {
         for line in polylines {
             check_points(line)?;
         }
-        check_crossings(polylines, tolerance, domain)?;
+        check_crossings(polylines, tolerance, domain, MOST_PAIRS)?;
         for line in polylines {
             check_area(line, tolerance)?;
         }

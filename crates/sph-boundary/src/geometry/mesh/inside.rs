@@ -1,5 +1,7 @@
 //! On which side of the walls a point is.
 
+use sph_core::BoxTree;
+
 use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
 use super::grid::Grid;
@@ -113,16 +115,23 @@ where
         let flat = |x: [f64; D]| flattened(x, along);
         let rim = RIM * self.spacing;
         let around = widened([self.domain.lower, self.domain.upper], rim).map(flat);
-        let mut images = Vec::new();
+        let (mut entries, mut boxes) = (Vec::new(), Vec::new());
         for e in 0..self.elements.len() {
             let own = bounds(self.corners(e).map(flat));
             for image in self.domain.images_within(around, own) {
                 let shift = self.domain.shift(image);
                 let moved = own.map(|x| std::array::from_fn(|k| x[k] + shift[k]));
-                images.extend(NearElement::new(e, image).map(|near| (near, moved)));
+                if let Some(near) = NearElement::new(e, image) {
+                    entries.push(near);
+                    boxes.push(moved);
+                }
             }
         }
-        Rays::new(along, images, rim)
+        Rays {
+            along,
+            entries,
+            tree: BoxTree::new(boxes),
+        }
     }
 
     /// True if the first wall that a ray meets faces the point; none if it meets nothing.
@@ -145,7 +154,9 @@ where
 
     fn crossings(&self, rays: &Rays<D>, point: [f64; D]) -> Vec<(f64, i32)> {
         let (along, mut crossings) = (rays.along, Vec::new());
-        rays.each(point, |near| {
+        let around = widened([flattened(point, along); 2], RIM * self.spacing);
+        rays.tree.each(around, |n| {
+            let near = rays.entries[n];
             let corners = self.corners_from(point, near);
             let normal = self.elements[near.index()].normal;
             let Some((mut height, facing)) = Self::crossing(corners, normal, along) else {

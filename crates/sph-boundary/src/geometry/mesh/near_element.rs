@@ -9,6 +9,15 @@ pub struct NearElement<const D: usize> {
     pub image: [i8; D],
 }
 
+/// Elements near several points, each point's behind those of the one before.
+#[derive(Clone, Debug, Default)]
+pub struct NearRows<const D: usize> {
+    /// Number of elements of every point.
+    pub counts: Vec<u32>,
+    /// All of them.
+    pub elements: Vec<NearElement<D>>,
+}
+
 impl<const D: usize> NearElement<D> {
     /// Of an image that a byte can count; others are of a wall drawn far outside the box.
     pub(crate) fn new(element: usize, image: [i32; D]) -> Option<Self> {

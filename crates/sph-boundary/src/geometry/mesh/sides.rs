@@ -1,10 +1,9 @@
 //! Data that give the sides of a mesh.
 
-use sph_core::{BoxTree, Corners, Winding};
+use sph_core::{BoxTree, Winding};
 
 use super::grid::Grid;
 use super::near_element::NearElement;
-use crate::geometry::vector::widened;
 
 /// Data of a mesh for the side of a point, at the present position.
 #[derive(Clone, Debug)]
@@ -28,29 +27,9 @@ pub struct Sides<const D: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct Rays<const D: usize> {
     pub along: usize,
-    entries: Vec<NearElement<D>>,
+    pub entries: Vec<NearElement<D>>,
     /// Of their boxes, flat across the axis.
-    tree: BoxTree<D>,
-    rim: f64,
-}
-
-impl<const D: usize> Rays<D> {
-    /// Of elements with their boxes flat across the axis, and the largest shift of their rims by rounding, m.
-    pub fn new(along: usize, images: Vec<(NearElement<D>, Corners<D>)>, rim: f64) -> Self {
-        let (entries, boxes): (Vec<_>, Vec<_>) = images.into_iter().unzip();
-        Rays {
-            along,
-            entries,
-            tree: BoxTree::new(boxes),
-            rim,
-        }
-    }
-
-    pub fn each(&self, point: [f64; D], mut found: impl FnMut(NearElement<D>)) {
-        let at = flattened(point, self.along);
-        let around = widened([at; 2], self.rim);
-        self.tree.each(around, |n| found(self.entries[n]));
-    }
+    pub tree: BoxTree<D>,
 }
 
 /// A place without its coordinate along an axis.

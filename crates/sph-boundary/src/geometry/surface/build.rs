@@ -47,7 +47,7 @@ impl Mesh<3> {
         let mut places = Places::new(tolerance, domain);
         let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
         let cuts = Cuts::new(&patches, &places, spacing);
-        let seen = wetted_pieces(&patches, &cuts, &places, &touched);
+        let seen = wetted_pieces(&patches, &cuts, &touched);
         let unseen = unseen_faces(surfaces, &patches, &seen);
         let mut kept = seen.iter();
         patches.retain(|_| kept.next() == Some(&true));
@@ -59,13 +59,13 @@ impl Mesh<3> {
                 surface.name
             )));
         }
-        let free = free_pieces(surfaces, &patches, &cuts, &places)?;
+        let free = free_pieces(surfaces, &patches, &cuts)?;
 
         let mut nodes = Nodes::default();
         let mut sides = Vec::with_capacity(patches.len());
         for patch in &patches {
             let edges = patch.boundary.iter();
-            let nodes = edges.map(|e| cuts.nodes(*e, &places, &mut nodes, patch.wall, spacing));
+            let nodes = edges.map(|e| cuts.nodes(*e, &mut nodes, patch.wall));
             sides.push(nodes.collect::<Vec<_>>());
         }
         let position = |node: u32| nodes.positions[node as usize];
@@ -127,10 +127,7 @@ impl Mesh<3> {
         // A piece drawn in another image has its own nodes where it is drawn.
         let site = |c: Corner| match c {
             Corner::Edge(site) => site,
-            Corner::Inside(k) => Site {
-                id: first + k,
-                image: [0; 3],
-            },
+            Corner::Inside(k) => Site::unmoved(first + k),
         };
         for corners in filling.triangles {
             let sites = corners.map(site);

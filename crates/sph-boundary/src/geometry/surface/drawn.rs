@@ -114,13 +114,9 @@ pub(super) fn weld(
     for corner in surface.triangles.iter().flatten() {
         used[*corner as usize] = true;
     }
-    let nowhere = Site {
-        id: u32::MAX,
-        image: [0; 3],
-    };
     let site = |(point, used): (&Point, bool)| match used {
         true => places.find(*point, group),
-        false => nowhere,
+        false => Site::unmoved(u32::MAX),
     };
     let sites: Vec<Site> = surface.points.iter().zip(used).map(site).collect();
     let mut drawn = Vec::with_capacity(surface.triangles.len());

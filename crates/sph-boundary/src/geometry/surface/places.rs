@@ -14,6 +14,11 @@ pub(super) struct Site {
 }
 
 impl Site {
+    pub fn unmoved(id: u32) -> Self {
+        let image = [0; 3];
+        Self { id, image }
+    }
+
     pub fn moved(self, by: [i32; 3]) -> Self {
         let image = std::array::from_fn(|k| self.image[k] + by[k]);
         Self { image, ..self }
@@ -115,7 +120,7 @@ impl Places {
         self.groups.push(group);
         let cell = self.wrapped(point).map(|x| self.cell(x));
         self.before.push(self.cells.insert(cell, id));
-        Site { id, image: [0; 3] }
+        Site::unmoved(id)
     }
 
     fn known(&self, point: Point, group: usize) -> Option<Site> {

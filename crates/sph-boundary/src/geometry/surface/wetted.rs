@@ -26,8 +26,7 @@ pub(super) struct FaceContacts {
 /// pipe. It ends there on the back of another wall, so that no fluid can be before it.
 pub(super) fn wetted_pieces(
     pieces: &[Patch],
-    cuts: &Cuts,
-    places: &Places,
+    cuts: &Cuts<'_>,
     touched: &FaceContacts,
 ) -> Vec<bool> {
     let mut runs: BTreeMap<EdgeKey, Vec<(usize, bool)>> = BTreeMap::new();
@@ -52,7 +51,7 @@ pub(super) fn wetted_pieces(
                 continue;
             }
             [(a, with), (b, other)] if with != other => vec![[a, b]],
-            _ => wedges(around(pieces, places, key, run)),
+            _ => wedges(around(pieces, cuts.places, key, run)),
         };
         pairs.iter().for_each(|pair| parts.join(*pair));
         let joined: Vec<usize> = pairs.into_iter().flatten().collect();

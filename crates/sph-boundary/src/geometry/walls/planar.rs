@@ -12,8 +12,9 @@ use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Drawing, GammaSum, Gammas, Hindrance, Mesh, NearElement, PeriodicBox, Polyline,
-    Pose, Renormalisation2d, Result, SeenElement, SegmentBatch, WallMesh, WallSpec, Walls,
+    BoundaryError, Drawing, GammaSum, Gammas, Hindrance, Mesh, NearElement, NearRows, PeriodicBox,
+    Polyline, Pose, Renormalisation2d, Result, SeenElement, SegmentBatch, View, WallMesh, WallSpec,
+    Walls,
 };
 
 /// Two dummy particles nearer than this share of the spacing are one.
@@ -22,7 +23,7 @@ const TOO_CLOSE: f64 = 0.7;
 impl Walls<2> {
     fn hindrance(
         &self,
-        (x, behind): (&Vect<2>, &[(u32, u32)]),
+        (x, behind): View<'_, 2>,
         near: NearElement<2>,
         reach: f64,
     ) -> Option<Hindrance<2>> {
@@ -121,18 +122,13 @@ impl WallMesh<2> for Walls<2> {
         Ok(())
     }
 
-    fn near_all(
-        &self,
-        points: &[Vect<2>],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<2>>,
-    ) {
+    fn near_all(&self, points: &[Vect<2>], radius: f64, rows: &mut NearRows<2>) {
         let (radius, grid) = (radius.min(self.reach), self.grid());
         for point in points {
-            let from = rows.len();
-            rows.extend(grid.near(&self.mesh, (*point).into(), radius));
-            counts.push((rows.len() - from) as u32);
+            let from = rows.elements.len();
+            let near = grid.near(&self.mesh, (*point).into(), radius);
+            rows.elements.extend(near);
+            rows.counts.push((rows.elements.len() - from) as u32);
         }
     }
 
@@ -193,15 +189,11 @@ impl WallMesh<2> for Walls<2> {
         by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
     }
 
-    fn hindrances(
-        &self,
-        of: (&Vect<2>, &[(u32, u32)]),
-        near: &[NearElement<2>],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<2>>,
-    ) {
-        let near = near.iter();
-        hindrances.extend(near.filter_map(|near| self.hindrance(of, *near, reach)));
+    fn hindrances(&self, of: View<'_, 2>, row: &[NearElement<2>], reach: f64) -> Vec<Hindrance<2>> {
+        let all = row
+            .iter()
+            .filter_map(|near| self.hindrance(of, *near, reach));
+        all.collect()
     }
 
     fn enclosed(&self, point: &Vect<2>) -> Option<f64> {

@@ -10,8 +10,9 @@ use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
 use crate::treatment::groups::groups;
 use crate::{
-    BoundaryError, Closest, Drawing, Feature, Gammas, Hindrance, Mesh, NearElement, PeriodicBox,
-    Pose, Renormalisation3d, Result, Surface, WallMesh, WallSpec, Walls, Weights,
+    BoundaryError, Closest, Drawing, Feature, Gammas, Hindrance, Mesh, NearElement, NearRows,
+    PeriodicBox, Pose, Renormalisation3d, Result, Surface, View, WallMesh, WallSpec, Walls,
+    Weights,
 };
 
 /// Two places nearer than this, relatively, are equally near.
@@ -69,43 +70,36 @@ impl WallMesh<3> for Walls<3> {
 
     /// Also those of which only the sphere around them is in reach: to look closer costs more than
     /// to see them left out by every γ. Face by face, as the triangles are.
-    fn near_all(
-        &self,
-        points: &[Vect<3>],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<3>>,
-    ) {
+    fn near_all(&self, points: &[Vect<3>], radius: f64, rows: &mut NearRows<3>) {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
-        self.grid()
-            .rows(&points, radius.min(self.reach), counts, rows);
+        self.grid().rows(&points, radius.min(self.reach), rows);
     }
 
     /// One triangle of each face that is one contact: the rest of it is found from there.
-    fn merge(&self, counts: &mut [u32], rows: &mut Vec<NearElement<3>>) {
+    fn merge(&self, NearRows { counts, elements }: &mut NearRows<3>) {
         let (mut from, mut kept) = (0, 0);
         for count in counts {
             let end = from + *count as usize;
             let before = kept;
             while from < end {
-                let part = self.faces(&rows[from..end]).next().map_or(0, <[_]>::len);
-                let face = self.planes.faces[rows[from].index()];
+                let part = self
+                    .faces(&elements[from..end])
+                    .next()
+                    .map_or(0, <[_]>::len);
+                let face = self.planes.faces[elements[from].index()];
                 let left = match &self.planes.maps[face as usize] {
                     Some(_) => 1,
                     None => part,
                 };
-                rows.copy_within(from..from + left, kept);
+                elements.copy_within(from..from + left, kept);
                 kept += left;
                 from += part;
             }
             *count = (kept - before) as u32;
         }
-        rows.truncate(kept);
+        elements.truncate(kept);
     }
 
-    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the triangles of a cut face
-    /// by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
-    /// whatever else stands in the row.
     fn clearance(&self, point: &Vect<3>, near: &[NearElement<3>]) -> f64 {
         let heights = self.faces(near).map(|part| {
             let first = &self.mesh.elements[part[0].index()];
@@ -116,6 +110,9 @@ impl WallMesh<3> for Walls<3> {
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
 
+    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the triangles of a cut face
+    /// by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
+    /// whatever else stands in the row.
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation3d,
@@ -143,13 +140,8 @@ impl WallMesh<3> for Walls<3> {
         sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
     }
 
-    fn hindrances(
-        &self,
-        (point, behind): (&Vect<3>, &[(u32, u32)]),
-        row: &[NearElement<3>],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<3>>,
-    ) {
+    fn hindrances(&self, of: View<'_, 3>, row: &[NearElement<3>], reach: f64) -> Vec<Hindrance<3>> {
+        let (point, behind) = of;
         let x: [f64; 3] = (*point).into();
         let row = &self.expanded(point, row, reach)[..];
         let seen = row.iter().map(|near| {
@@ -164,6 +156,7 @@ impl WallMesh<3> for Walls<3> {
             side * closest.height > 0.0 && *distance <= reach
         };
         let all: Vec<_> = seen.filter(before).collect();
+        let mut hindrances = Vec::new();
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
@@ -186,6 +179,7 @@ impl WallMesh<3> for Walls<3> {
                 image: self.mesh.domain.shift(near.image.map(i32::from)).into(),
             });
         }
+        hindrances
     }
 
     fn enclosed(&self, point: &Vect<3>) -> Option<f64> {

@@ -8,8 +8,8 @@ use sph_neighbours::ContactBlock;
 
 use crate::geometry::vector::dot;
 use crate::{
-    Element, Gammas, NearElement, Node, PeriodicBox, Pose, Result, SeenElement, Shells, WallSpec,
-    Walls,
+    Element, Gammas, NearElement, NearRows, Node, PeriodicBox, Pose, Result, SeenElement, Shells,
+    WallSpec, Walls,
 };
 
 /// A direction in which a wall keeps a particle off.
@@ -28,6 +28,9 @@ pub struct Hindrance<const D: usize> {
     /// Whole periods from the wall to its visible image, m.
     pub image: Vect<D>,
 }
+
+/// A particle, and the shells that it is behind, each with its place in the near lists.
+pub type View<'a, const D: usize> = (&'a Vect<D>, &'a [(u32, u32)]);
 
 /// The walls of a scene as a mesh of elements of about the particle spacing: the common queries of the two dimensions,
 /// and those with a method of each.
@@ -72,19 +75,12 @@ pub trait WallMesh<const D: usize>:
     /// If a wall cannot follow.
     fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<()>;
 
-    /// For every point the elements within a radius, or a few more: their number, and all of them one behind the other,
-    /// each point's ascending.
-    fn near_all(
-        &self,
-        points: &[Vect<D>],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<D>>,
-    );
+    /// Appends for every point the elements within a radius, or a few more, ascending.
+    fn near_all(&self, points: &[Vect<D>], radius: f64, rows: &mut NearRows<D>);
 
     /// Leaves of the rows of [`near_all`](Self::near_all) as much as γ, contacts and hindrances need: all, if it says nothing
     /// else.
-    fn merge(&self, _counts: &mut [u32], _rows: &mut Vec<NearElement<D>>) {}
+    fn merge(&self, _rows: &mut NearRows<D>) {}
 
     /// γ at points, each with the elements that may be within its support; see [`Shells`] for those that end freely.
     /// Those that are within it become contacts, but for those hidden behind such a shell; further ones change nothing.
@@ -104,14 +100,8 @@ pub trait WallMesh<const D: usize>:
     /// is none. No element is nearer.
     fn clearance(&self, point: &Vect<D>, near: &[NearElement<D>]) -> f64;
 
-    /// Planes at which the walls keep off a particle behind some shells, among the places nearer than `reach` metres.
-    fn hindrances(
-        &self,
-        of: (&Vect<D>, &[(u32, u32)]),
-        near: &[NearElement<D>],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<D>>,
-    );
+    /// Planes at which the walls keep off a particle, among the places nearer than `reach` metres.
+    fn hindrances(&self, of: View<'_, D>, row: &[NearElement<D>], reach: f64) -> Vec<Hindrance<D>>;
 
     /// True if a point is on the fluid's side of all walls.
     fn contains(&self, point: &Vect<D>) -> bool;
@@ -167,9 +157,9 @@ pub trait WallMesh<const D: usize>:
 
     /// Elements within a radius of a point, or a few more, ascending.
     fn near(&self, point: &Vect<D>, radius: f64) -> Vec<NearElement<D>> {
-        let (mut counts, mut row) = (Vec::new(), Vec::new());
-        self.near_all(&[*point], radius, &mut counts, &mut row);
-        row
+        let mut rows = NearRows::default();
+        self.near_all(&[*point], radius, &mut rows);
+        rows.elements
     }
 
     /// Pieces that end freely.
