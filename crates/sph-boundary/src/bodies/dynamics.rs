@@ -59,7 +59,8 @@ impl Dynamics {
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
         // Weight alone is a constant force, of which the mean velocity makes the exact parabola.
-        let flies = load.is_weight() && self.holds.is_empty() && self.lines.is_empty();
+        let weight = [load.force, load.contact_force] == [Vect::<D>::zeros(); 2];
+        let flies = weight && self.holds.is_empty() && self.lines.is_empty();
         let share = if flies { 0.5 } else { 1.0 };
         let mean = now.velocity.lerp(&state.velocity, share);
         state.pose.translation = (Vect::from(now.pose.translation) + mean * dt).into();

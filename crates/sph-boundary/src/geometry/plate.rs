@@ -31,7 +31,12 @@ pub fn thin_plate(
         let around = points.iter().copied().chain(back);
         return Ok(Polyline::closed(middle.name, around.collect()));
     }
-    let normals: Vec<[f64; 2]> = middle.edges().map(left_normal).collect();
+    let left = |[a, b]: [[f64; 2]; 2]| {
+        let (x, y) = (b[0] - a[0], b[1] - a[1]);
+        let length = x.hypot(y);
+        [-y / length, x / length]
+    };
+    let normals: Vec<[f64; 2]> = middle.edges().map(left).collect();
     let mut outline = Vec::with_capacity(2 * points.len());
     let mut other_side = Vec::with_capacity(points.len());
     for (i, &[x, y]) in points.iter().enumerate() {
@@ -50,12 +55,6 @@ pub fn thin_plate(
     }
     outline.extend(other_side.into_iter().rev());
     Ok(Polyline::closed(middle.name, outline))
-}
-
-fn left_normal([a, b]: [[f64; 2]; 2]) -> [f64; 2] {
-    let (x, y) = (b[0] - a[0], b[1] - a[1]);
-    let length = x.hypot(y);
-    [-y / length, x / length]
 }
 
 #[cfg(test)]

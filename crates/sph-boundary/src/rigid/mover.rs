@@ -90,11 +90,6 @@ impl<const D: usize> Load<D> {
             gravity,
         }
     }
-
-    /// True if neither fluid nor contact acts.
-    pub fn is_weight(&self) -> bool {
-        [self.force, self.contact_force] == [Vect::<D>::zeros(); 2]
-    }
 }
 
 /// Contact law of a wall that its mover moves freely.

@@ -65,7 +65,7 @@ impl<const D: usize> NearLists<D> {
                 u.map(|u| (p, u))
             })
             .collect();
-        let forces = match outline.any_needs_forces() {
+        let forces = match (0..outline.specs.len()).any(|wall| outline.needs_forces(wall)) {
             true => {
                 for body in &world.walls.bodies {
                     give_way(body, world, &mut changed)?;

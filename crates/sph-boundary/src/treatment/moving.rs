@@ -150,10 +150,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             .collect()
     }
 
-    pub fn any_needs_forces(&self) -> bool {
-        (0..self.specs.len()).any(|wall| self.needs_forces(wall))
-    }
-
     /// The walls with movers, each by its first piece.
     fn movers(&self) -> impl Iterator<Item = (usize, &dyn Mover<D>)> {
         let all = (0..self.specs.len()).filter(|k| !is_piece(&self.specs, *k));

@@ -65,6 +65,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let reach = FARTHEST * support;
         let domain = PeriodicBox::from_domain(setup.domain);
         check_reach(setup.walls, &domain)?;
+        let start = |spec: &WallSpec<D>| match &spec.mover {
+            Some(mover) => mover.start(),
+            None => spec.motion.state(0.0),
+        };
         let mesh = M::build(setup.walls, size, reach, &domain)?;
         let laid = mesh.walls().mesh.beds.clone();
         let mut outline = Outline {
@@ -300,14 +304,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             }
         }
         elements
-    }
-}
-
-/// State of a wall at time 0.
-fn start<const D: usize>(spec: &WallSpec<D>) -> RigidState<D> {
-    match &spec.mover {
-        Some(mover) => mover.start(),
-        None => spec.motion.state(0.0),
     }
 }
 

@@ -37,8 +37,8 @@ pub(super) fn joints(
     for (i, end) in ends.iter().enumerate() {
         let met = |j: &usize| {
             let other = &ends[*j];
-            let image = same_place(end.position, other.position, tolerance, domain)?;
-            Some((other, image))
+            let (image, rest) = domain.nearest(sub(end.position, other.position));
+            (rest[0].hypot(rest[1]) <= tolerance).then_some((other, image))
         };
         let mut near = near(&tree, wrapped(end), tolerance, domain);
         near.retain(|j| *j != i);
@@ -103,15 +103,4 @@ fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {
     let open = polylines.iter().enumerate();
     let open = open.filter(|(_, line)| !line.closed);
     open.flat_map(ends).collect()
-}
-
-/// The image of `there` that coincides with `here`, if one does.
-fn same_place(
-    here: [f64; 2],
-    there: [f64; 2],
-    tolerance: f64,
-    domain: &PeriodicBox,
-) -> Option<[i32; 2]> {
-    let (image, rest) = domain.nearest(sub(here, there));
-    (rest[0].hypot(rest[1]) <= tolerance).then_some(image)
 }

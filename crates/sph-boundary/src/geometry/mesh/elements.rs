@@ -209,7 +209,7 @@ impl<const D: usize> Mesh<D> {
     }
 
     #[inline]
-    fn node_from(&self, point: [f64; D], node: usize, image: [i32; D]) -> [f64; D] {
+    pub(crate) fn node_from(&self, point: [f64; D], node: usize, image: [i32; D]) -> [f64; D] {
         let from = sub(self.nodes[node].position, point);
         if image == [0; D] {
             return from;
@@ -219,10 +219,6 @@ impl<const D: usize> Mesh<D> {
 }
 
 impl Mesh<3> {
-    pub(crate) fn node_at(&self, node: usize, image: [i32; 3]) -> Point {
-        self.node_from([0.0; 3], node, image)
-    }
-
     /// Edges of an image of a face relative to a point, m; bitwise the same vectors as [`Mesh::corners_from`] gives.
     pub fn face_edges_from(
         &self,

@@ -43,7 +43,7 @@ impl Mesh<3> {
 
     /// Both ends of a free edge, m.
     pub fn free_edge_ends(&self, edge: &FreeEdge) -> [Point; 2] {
-        [0, 1].map(|k| self.node_at(edge.nodes[k], edge.images[k]))
+        [0, 1].map(|k| self.node_from([0.0; 3], edge.nodes[k], edge.images[k]))
     }
 
     /// Refuses a free edge within the kernel radius of any point, where γ is not defined.
