@@ -7,7 +7,6 @@ pub(crate) mod junctions;
 pub(crate) mod lines;
 pub(crate) mod mesh;
 pub(crate) mod periodic;
-pub(crate) mod plane;
 pub(crate) mod plate;
 pub(crate) mod polyline;
 pub(crate) mod shells;

@@ -3,9 +3,6 @@
 mod batch;
 mod primitives;
 mod renormalisation;
-mod ring;
-mod segment;
 
 pub use batch::SegmentBatch;
-pub use renormalisation::Renormalisation2d;
-pub use segment::{Contact, SegmentIntegral};
+pub use renormalisation::{Contact, Renormalisation2d, SegmentIntegral};

@@ -10,8 +10,7 @@ use super::patches::Patch;
 use super::places::Site;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::plane::Plane;
-use crate::geometry::vector::{Point, add, norm, perp, sub};
+use crate::geometry::vector::{Plane, Point, add, norm, perp, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;

@@ -11,8 +11,7 @@ use super::crossing::Contact;
 use super::patches::Patch;
 use super::places::{Places, Site, edge_key};
 use super::wetted::FaceContacts;
-use crate::geometry::plane::Plane;
-use crate::geometry::vector::sub;
+use crate::geometry::vector::{Plane, sub};
 
 /// Bits of the whole numbers that span a patch: 2⁻⁴⁴ of its size is the resolution.
 const BITS: i32 = 44;

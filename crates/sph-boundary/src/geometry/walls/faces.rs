@@ -3,8 +3,7 @@
 use sph_core::Vect;
 
 use crate::geometry::cells::listed;
-use crate::geometry::plane::Plane;
-use crate::geometry::vector::{bounds, dot, foot_on_segment, perp, sub, widened};
+use crate::geometry::vector::{Plane, bounds, dot, foot_on_segment, perp, sub, widened};
 use crate::integrals::spatial::{Circle, Patch};
 use crate::{FaceEdge, Mesh};
 

@@ -2,8 +2,7 @@
 
 use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
-use super::renormalisation::Renormalisation2d;
-use super::segment::{OnLine, SegmentIntegral};
+use super::renormalisation::{OnLine, Renormalisation2d, SegmentIntegral};
 
 /// Segments in reach of the points that see them, one after the other; kept for its memory.
 #[derive(Debug, Default)]

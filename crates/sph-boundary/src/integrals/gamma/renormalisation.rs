@@ -1,11 +1,11 @@
-//! Coefficient tables of a kernel in the plane.
+//! The integrals of a kernel over segments of the plane.
 
 use sph_kernels::PiecewisePolynomial;
+use sph_kernels::lanes::{Lane, atan2, ln};
 
-use super::primitives::{Knot, tables};
-use super::ring::Ring;
+use super::primitives::{Knot, Ring, tables};
 use crate::error::Result;
-use crate::integrals::normalisation::normalisation;
+use crate::integrals::normalisation::{End, normalisation};
 
 /// Exact wall integrals of one kernel in two dimensions.
 ///
@@ -73,5 +73,160 @@ impl Renormalisation2d {
     /// Distance beyond which the kernel vanishes, m.
     pub fn kernel_radius(&self) -> f64 {
         self.kernel_radius
+    }
+}
+
+/// Below this distance over h the logarithmic terms, of order a² ln a, are left out.
+const NO_LOGARITHM: f64 = 1e-30;
+
+/// Position of a point on a segment.
+///
+/// A segment that contains the point has Γ_as = 0; the point's θ accounts for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contact {
+    /// The point is not on the segment.
+    None,
+    /// The point is the segment's first vertex.
+    Start,
+    /// The point is the segment's second vertex.
+    End,
+    /// The point is on the segment between its vertices.
+    Inside,
+}
+
+/// The share of one segment in γ and ∇γ of one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentIntegral {
+    /// ∫_s w dS: ∇Γ_as is this times the inward normal, 1/m.
+    pub kernel: f64,
+    /// Γ_as, to be subtracted from θ; positive for a point on the fluid's side.
+    pub gamma: f64,
+    /// Position of the point on the segment.
+    pub contact: Contact,
+}
+
+/// A segment in the frame of its line, everything over h.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnLine<L> {
+    /// a: signed distance of the point from the line.
+    pub height: L,
+    /// Abscissae of both ends.
+    pub along: [L; 2],
+    /// Squared distances of both ends.
+    pub distance2: [L; 2],
+}
+
+impl Renormalisation2d {
+    /// Integrals over the segment from `start` to `end`, both relative to the point, m.
+    ///
+    /// `normal` is the inward unit normal, on the left of start → end. Segments that share a vertex
+    /// must be given bitwise the same vector to it: then the angles under which they are seen add
+    /// up to rounding however close the point is to that vertex.
+    #[inline]
+    pub fn segment(&self, start: [f64; 2], end: [f64; 2], normal: [f64; 2]) -> SegmentIntegral {
+        let seen = self.on_line(start, end, normal);
+        self.finished(&seen, self.discs(&seen))
+    }
+
+    #[inline(always)]
+    pub(super) fn on_line(&self, start: [f64; 2], end: [f64; 2], normal: [f64; 2]) -> OnLine<f64> {
+        let (x1, y1) = (start[0] * self.per_h, start[1] * self.per_h);
+        let (x2, y2) = (end[0] * self.per_h, end[1] * self.per_h);
+        let (r1, r2) = (x1 * x1 + y1 * y1, x2 * x2 + y2 * y2);
+        // The nearer end gives the distance to the line with an error relative to its own distance.
+        let (x, y) = if r1 < r2 { (x1, y1) } else { (x2, y2) };
+        OnLine {
+            height: -(x * normal[0] + y * normal[1]),
+            along: [
+                x1 * normal[1] - y1 * normal[0],
+                x2 * normal[1] - y2 * normal[0],
+            ],
+            distance2: [r1, r2],
+        }
+    }
+
+    /// The discs of the closed form: h ∫ w dS and Γ, several segments side by side.
+    #[inline(always)]
+    pub(super) fn discs<L: Lane>(&self, seen: &OnLine<L>) -> [L; 2] {
+        let (a, zero) = (seen.height, L::splat(0.0));
+        let (a2, depth) = (a * a, a.abs());
+        let [y1, y2] = seen.along;
+        let [q1, q2] = [seen.distance2[0].sqrt(), seen.distance2[1].sqrt()];
+        let (mut kernel, mut gamma, mut smooth) = (zero, zero, zero);
+        for knot in &self.knots {
+            let rho = L::splat(knot.radius);
+            // Half of the chord that the disc cuts out of the line; where there is none, nothing is left of a segment.
+            let reach = ((rho - depth).max(zero) * (rho + depth)).sqrt();
+            let inside = [rho - q1, rho - q2];
+            let clipped = |inside: L, y: L, q: L, at: L| End {
+                y: inside.where_positive(y, at),
+                q: inside.where_positive(q, rho),
+            };
+            let from = clipped(inside[0], y1, q1, zero - reach);
+            let to = clipped(inside[1], y2, q2, reach);
+            let angle = atan2(a * (to.y - from.y), from.y * to.y + a2);
+            let log = logarithm(depth, from, to);
+            let p = knot.between(a2, from, to);
+            // Beyond an end that is clipped there is nothing, and nothing where the disc does not reach the line.
+            let ahead = inside[0].where_positive(L::splat(1.0), zero - y1);
+            let behind = inside[1].where_positive(L::splat(1.0), y2);
+            let counts = |sum: L, more: L| {
+                let more = ahead.where_positive(behind.where_positive(more, zero), zero);
+                sum + (rho - depth).where_positive(more, zero)
+            };
+            kernel = counts(kernel, p.gradient + p.gradient_log * log);
+            smooth = counts(smooth, p.gamma + p.gamma_log * log);
+            gamma = counts(gamma, L::splat(knot.angle) * angle);
+        }
+        [kernel, gamma - a * smooth]
+    }
+
+    #[inline(always)]
+    pub(super) fn finished(&self, seen: &OnLine<f64>, discs: [f64; 2]) -> SegmentIntegral {
+        let (a, t) = (seen.height, seen.along);
+        let [mut kernel, mut gamma] = discs;
+        for ring in &self.rings {
+            if a.abs() < ring.outer && t[0] < ring.outer && t[1] > -ring.outer {
+                let [f, k] = ring.integrals(a, t[0], t[1]);
+                kernel += f;
+                gamma += a * k;
+            }
+        }
+        let contact = contact(a, t, seen.distance2);
+        SegmentIntegral {
+            kernel: kernel * self.per_h,
+            gamma: if contact == Contact::None { gamma } else { 0.0 },
+            contact,
+        }
+    }
+}
+
+/// asinh(y₂/a) − asinh(y₁/a) with one logarithm and without cancellation.
+#[inline(always)]
+fn logarithm<L: Lane>(depth: L, from: End<L>, to: End<L>) -> L {
+    let zero = L::splat(0.0);
+    let (far_from, far_to) = (from.y.abs() + from.q, to.y.abs() + to.q);
+    // Both ends behind the foot, both before it, or the foot between them.
+    let behind = zero - from.y;
+    let over = to.y.where_positive(far_to * far_from, far_from);
+    let over = behind.where_positive(over, far_to);
+    let under = to.y.where_positive(depth * depth, far_to);
+    let under = behind.where_positive(under, far_from);
+    let seen = depth - L::splat(NO_LOGARITHM);
+    let one = L::splat(1.0);
+    let ratio = seen.where_positive(over, one) / seen.where_positive(under, one);
+    seen.where_positive(ln(ratio), zero)
+}
+
+#[inline]
+fn contact(a: f64, t: [f64; 2], r: [f64; 2]) -> Contact {
+    if r[0] == 0.0 {
+        Contact::Start
+    } else if r[1] == 0.0 {
+        Contact::End
+    } else if a == 0.0 && t[0] < 0.0 && t[1] > 0.0 {
+        Contact::Inside
+    } else {
+        Contact::None
     }
 }

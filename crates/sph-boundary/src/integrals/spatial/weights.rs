@@ -4,7 +4,7 @@ use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six};
-use crate::geometry::plane::Plane;
+use crate::geometry::vector::Plane;
 
 /// A triangle in the coordinates of its plane, ready to be seen from many points.
 #[derive(Clone, Copy, Debug)]
@@ -252,7 +252,7 @@ mod tests {
     use sph_kernels::{Kernel, builtin};
 
     use super::*;
-    use crate::geometry::vector::{along, cross, dot, norm};
+    use crate::geometry::vector::{Plane, along, cross, dot, norm};
 
     /// Calls `found` with the distances of the corners, the weight and the integral of a right isosceles triangle in a
     /// tilted plane, from many points whose height and distance are at most `reach`.
