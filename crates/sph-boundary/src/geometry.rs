@@ -15,4 +15,3 @@ pub(crate) mod touching;
 pub(crate) mod vector;
 #[cfg(feature = "plugins")]
 pub(crate) mod walls;
-pub(crate) mod wedges;

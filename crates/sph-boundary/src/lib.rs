@@ -55,15 +55,13 @@ pub use geometry::surface::Surface;
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
 pub use integrals::sum::GammaSum;
-pub use rigid::bend::{Bend, Erodible};
-pub use rigid::motion::RigidMotion;
+pub use rigid::motion::{Bend, Erodible, RigidMotion};
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::walls::wall_mesh::{Hindrance, View, WallMesh},
-    geometry::walls::{PlanarWalls, SpatialWalls, Walls},
+    geometry::walls::{Hindrance, PlanarWalls, SpatialWalls, View, WallMesh, Walls},
     rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
     rigid::rigid_state::{Movement, RigidState},
     rigid::spring::Spring,

@@ -1,6 +1,5 @@
 //! Motion of walls: courses over time, movers, and the state of a rigid wall.
 
-pub(crate) mod bend;
 pub(crate) mod motion;
 #[cfg(feature = "plugins")]
 pub(crate) mod mover;

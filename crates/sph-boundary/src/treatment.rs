@@ -5,7 +5,6 @@ pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod elements;
 pub(crate) mod free_end_density;
-pub(crate) mod groups;
 pub(crate) mod impact;
 pub(crate) mod kernel_reach;
 pub(crate) mod moving;

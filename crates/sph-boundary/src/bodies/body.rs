@@ -5,8 +5,7 @@ use sph_core::{Vect, plugin};
 
 use crate::bodies::dynamics::Dynamics;
 use crate::bodies::freedom::{Freedom, Holds};
-use crate::bodies::line::Line;
-use crate::bodies::mooring::Mooring;
+use crate::bodies::mooring::{Line, Mooring};
 use crate::bodies::prescribed::{self, Prescribed};
 use crate::bodies::shape::{Solid, layer, winding};
 use crate::bodies::spatial_vector::padded;

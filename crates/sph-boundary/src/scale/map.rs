@@ -7,8 +7,7 @@ use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
-use crate::scale::flat::unrolled;
-use crate::scale::plane::{REACH, fade};
+use crate::scale::flat::{REACH, fade, unrolled};
 use crate::scale::spline::{Grid, interpolate, value};
 use crate::{BoundaryError, Result, SeenElement, WallMesh};
 

@@ -6,9 +6,8 @@ use rayon::prelude::*;
 use sph_core::{Sets, Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
-use crate::scale::flat::{FlatFace, flat_faces};
+use crate::scale::flat::{FlatFace, PlaneScale, REACH, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
-use crate::scale::plane::{PlaneScale, REACH};
 use crate::{PeriodicBox, Result, WallMesh, WallSetup, WallSpec};
 
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.

@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
-use crate::treatment::groups::{is_piece, pieces};
+use crate::treatment::contract::{is_piece, pieces};
 use crate::treatment::outline::Outline;
 use crate::{BoundaryError, Load, Mover, Result, RigidState, WallMesh, WallSpec, WallStates};
 

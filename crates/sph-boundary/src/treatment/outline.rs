@@ -8,11 +8,11 @@ use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, Wal
 
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::groups::{groups, is_piece};
+use crate::treatment::contract::{groups, is_piece};
 use crate::treatment::kernel_reach::far_sight;
 use crate::{
-    BoundaryError, Movement, Node, PeriodicBox, Pose, Result, RigidState, WallSetup, WallSpec,
+    BoundaryError, Movement, Node, PeriodicBox, Pose, Result, RigidState, WallMesh, WallSetup,
+    WallSpec,
 };
 
 /// Most periods that walls may reach across: images are counted in a byte.

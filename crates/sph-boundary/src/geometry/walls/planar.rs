@@ -10,7 +10,7 @@ use crate::geometry::junctions::bounding;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
-use crate::treatment::groups::groups;
+use crate::treatment::contract::groups;
 use crate::{
     BoundaryError, Drawing, GammaSum, Gammas, Hindrance, Mesh, NearElement, NearRows, PeriodicBox,
     Polyline, Pose, Renormalisation2d, Result, SeenElement, SegmentBatch, View, WallMesh, WallSpec,

@@ -8,7 +8,7 @@ use sph_neighbours::ContactBlock;
 use crate::geometry::vector::bounds;
 use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
-use crate::treatment::groups::groups;
+use crate::treatment::contract::groups;
 use crate::{
     BoundaryError, Closest, Drawing, Feature, Gammas, Hindrance, Mesh, NearElement, NearRows,
     PeriodicBox, Pose, Renormalisation3d, Result, Surface, View, WallMesh, WallSpec, Walls,

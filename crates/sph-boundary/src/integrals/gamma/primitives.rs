@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use sph_kernels::lanes::Lane;
 use sph_kernels::{PiecewisePolynomial, algebra};
 
-use crate::integrals::normalisation::{End, steps};
+use crate::integrals::{End, steps};
 
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///

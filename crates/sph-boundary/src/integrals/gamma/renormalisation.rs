@@ -5,7 +5,7 @@ use sph_kernels::lanes::{Lane, atan2, ln};
 
 use super::primitives::{Knot, Ring, tables};
 use crate::error::Result;
-use crate::integrals::normalisation::{End, normalisation};
+use crate::integrals::{End, normalisation};
 
 /// Exact wall integrals of one kernel in two dimensions.
 ///

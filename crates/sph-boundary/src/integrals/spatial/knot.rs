@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use sph_kernels::PiecewisePolynomial;
 
-use crate::integrals::normalisation::steps;
+use crate::integrals::steps;
 
 /// The part Δ(q) = Σ c_n qⁿ of the kernel that ends at one knot.
 ///
@@ -37,7 +37,7 @@ struct Term {
     factors: [f64; 2],
 }
 
-pub(super) type End = crate::integrals::normalisation::End<f64>;
+pub(super) type End = crate::integrals::End<f64>;
 
 /// Σ b_n U_{n+2} of both sums, split by the factor that is still to come.
 pub(super) struct Primitives {

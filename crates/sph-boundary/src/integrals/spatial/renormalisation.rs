@@ -10,7 +10,7 @@ use super::knot::{self, Knot};
 use super::outer_moment::OuterMoment;
 use crate::error::Result;
 use crate::geometry::vector::{Point, along, cross, dot};
-use crate::integrals::normalisation::normalisation;
+use crate::integrals::normalisation;
 
 /// Exact wall integrals of one kernel in three dimensions.
 ///
