@@ -6,7 +6,6 @@ pub(crate) mod dummy;
 pub(crate) mod elements;
 pub(crate) mod free_end_density;
 pub(crate) mod impact;
-pub(crate) mod kernel_reach;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;

@@ -15,7 +15,6 @@ use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidS
 /// Least density of a body over that of the lightest fluid. Lighter ones are stable, but a blow of one particle of the
 /// fluid throws them: it has several times their mass.
 const LIGHTEST: f64 = 0.02;
-
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.
 const FASTEST: f64 = 10.0;
 

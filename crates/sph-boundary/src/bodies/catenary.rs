@@ -57,7 +57,6 @@ impl Catenary {
         if self.bed { below.max(0.0) } else { below }
     }
 
-    /// Length that lies on the bed, m.
     fn length_on_bed(&self, up: f64) -> f64 {
         match self.bed {
             true => (self.length - up / self.weight).max(0.0),

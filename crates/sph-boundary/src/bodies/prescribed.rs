@@ -98,7 +98,6 @@ pub(crate) fn check<const D: usize>(
 pub(crate) type ImposedMotion = [Vector6<f64>; 2];
 
 impl Prescribed {
-    /// True if a step from a time is one of its own.
     pub(crate) fn holds(&self, time: f64) -> bool {
         self.from <= time && time < self.to
     }

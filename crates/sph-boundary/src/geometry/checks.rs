@@ -10,7 +10,6 @@ use crate::{PeriodicBox, Polyline};
 
 /// Edges shorter than this part of the spacing are remarked upon.
 const SHORT: f64 = 0.25;
-
 /// Part of the perimeter squared below which an area counts as zero.
 const NO_AREA: f64 = 1e-12;
 

@@ -133,7 +133,6 @@ impl Ends {
         }
     }
 
-    /// Ends of a group at a place, ascending.
     fn at(&self, place: [f64; 2], group: usize) -> Vec<usize> {
         let mut found = Vec::new();
         let around = widened([place; 2], self.tolerance);

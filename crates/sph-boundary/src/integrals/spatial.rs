@@ -2,7 +2,6 @@
 
 mod edge;
 mod knot;
-mod outer_moment;
 mod renormalisation;
 mod weight;
 mod weights;

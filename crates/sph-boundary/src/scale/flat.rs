@@ -161,7 +161,6 @@ pub(crate) struct FlatFace<const D: usize> {
 }
 
 impl<const D: usize> FlatFace<D> {
-    /// True if an element is on its plane.
     fn has(&self, element: &Element<D>, size: f64) -> bool {
         let same = (Vect::from(element.normal) - self.normal).norm() < SQUARE;
         let apart = Vect::from(element.centre) - self.place;

@@ -13,7 +13,6 @@ use crate::{PeriodicBox, Result, WallMesh, WallSetup, WallSpec};
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;
 
-/// The scale of all walls.
 #[derive(Debug)]
 pub(crate) struct WallScales<const D: usize, M> {
     plane: PlaneScale,
@@ -25,9 +24,7 @@ pub(crate) struct WallScales<const D: usize, M> {
 /// Walls that move as one and have nodes in common.
 #[derive(Debug)]
 struct Group<const D: usize, M> {
-    /// Its first wall.
     wall: u32,
-    /// Numbers of its walls.
     walls: Vec<u32>,
     /// The mesh as drawn.
     mesh: M,
@@ -64,7 +61,6 @@ pub(crate) fn element_size<const D: usize>(
     (share * least).min(most).max(spacing)
 }
 
-/// s and ∇ ln s at a particle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScaleAt<const D: usize> {
     pub scale: f64,

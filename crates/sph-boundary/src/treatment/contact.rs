@@ -11,13 +11,10 @@ use crate::{Element, Node, Touch, WallMesh, WallSpec};
 /// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
 /// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.
 const GAP: f64 = 1.0;
-
 /// The same of walls that are drawn as near, or nearer.
 const LEAST_GAP: f64 = 0.5;
-
 /// Greatest depth behind a surface from which a place is pushed out of it, over the spacing.
 pub(crate) const DEPTH: f64 = 1.0;
-
 /// Range of the search for surfaces, over the spacing: those that meet within a step, in which no wall goes farther
 /// than half a spacing.
 const REACH: f64 = GAP + 1.0;

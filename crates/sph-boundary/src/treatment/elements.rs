@@ -25,19 +25,16 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     clearance: Vec<f64>,
     /// The last state of the fluid at points and elements; kept for its memory.
     means: [Vec<WallMean>; 2],
-    /// Elements around each corner.
     around: Vec<u32>,
 }
 
 /// Particles that one task works through.
 const BATCH: usize = 64;
 
-/// Results of a batch of particles.
 #[derive(Debug, Default)]
 struct BatchResults<R> {
     gammas: Gammas,
     clearance: Vec<f64>,
-    /// Buffers of the integrals.
     room: R,
 }
 

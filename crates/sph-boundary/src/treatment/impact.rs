@@ -14,7 +14,6 @@ use crate::{Hindrance, NearElement, View, WallMesh};
 /// The pressure keeps particles of a filled fluid at about half a spacing or more, so that the
 /// constraint acts on lone particles only.
 pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
-
 /// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
 
@@ -175,7 +174,6 @@ struct Impact<'a, const D: usize, M: WallMesh<D>> {
     spacing: f64,
     /// Distance from a wall to which a particle may come, m.
     least: f64,
-    /// Largest speed of a wall, m/s.
     fastest: f64,
     dt: f64,
 }

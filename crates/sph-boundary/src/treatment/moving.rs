@@ -10,7 +10,6 @@ use crate::{BoundaryError, Load, Mover, Result, RigidState, WallMesh, WallSpec, 
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
-
 /// The most that a bed may rise, over the height within which walls in it stretch.
 const HIGHEST: f64 = 0.9;
 

@@ -14,7 +14,6 @@ use crate::{NearElement, NearRows, WallMesh};
 /// Longer rows cost every γ, which has to leave out elements beyond the support; shorter ones are looked for more
 /// often.
 const SKIN: f64 = 0.3;
-
 /// Particles whose elements one task looks for.
 const BATCH: usize = 256;
 
@@ -33,7 +32,6 @@ pub(crate) struct NearLists<const D: usize> {
     pub rims: Vec<u32>,
     /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
     pub behind: Vec<(u32, u32)>,
-    /// Of every particle.
     rows: Vec<Row<D>>,
     /// Identities of the particles of the rows.
     identities: Vec<u32>,

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use sph_core::Vect;
 use sph_core::bed::Bed;
+use sph_kernels::Sampler;
 use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
 
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
 use crate::treatment::contract::{groups, is_piece};
-use crate::treatment::kernel_reach::far_sight;
 use crate::{
     BoundaryError, Movement, Node, PeriodicBox, Pose, Result, RigidState, WallMesh, WallSetup,
     WallSpec,
@@ -17,7 +17,6 @@ use crate::{
 
 /// Most periods that walls may reach across: images are counted in a byte.
 const MOST_PERIODS: f64 = 100.0;
-
 /// Range of queries, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
 
@@ -320,4 +319,61 @@ fn check_reach<const D: usize>(walls: &[WallSpec<D>], domain: &PeriodicBox<D>) -
         }
     }
     Ok(())
+}
+
+/// Share of a particle's kernel that may be behind a wall.
+const SEEN: f64 = 0.01;
+/// Steps of integrals over the kernel.
+const STEPS: u32 = 400;
+
+/// Distance of a plane beyond which less than [`SEEN`] of the kernel lies, m.
+///
+/// In two dimensions 2r acos(d/r), in three 2πr(r − d) of the circle or sphere of radius r is beyond the distance d.
+pub(crate) fn far_sight<const D: usize>(kernel: &dyn Sampler) -> f64 {
+    let radius = kernel.support_radius();
+    let beyond = |d: f64| -> f64 {
+        let width = (radius - d) / f64::from(STEPS);
+        let part = |k: u32| {
+            let r = d + (f64::from(k) + 0.5) * width;
+            let cap = match D {
+                2 => 2.0 * r * (d / r).acos(),
+                _ => std::f64::consts::TAU * r * (r - d),
+            };
+            kernel.at(r).0 * cap * width
+        };
+        (0..STEPS).map(part).sum()
+    };
+    let (mut near, mut far) = (0.0, radius);
+    for _ in 0..40 {
+        let middle = 0.5 * (near + far);
+        match beyond(middle) > SEEN {
+            true => near = middle,
+            false => far = middle,
+        }
+    }
+    far
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wendland C2 in the plane: the share beyond a line at q = d/h, by quadrature of its marginal density.
+    #[test]
+    fn a_hundredth_of_the_kernel_is_beyond_the_far_sight() {
+        let (h, kernel) = (0.5, sph_kernels::wendland_c2());
+        let sampler = sph_kernels::Kernel::sampler(&kernel, 2, h);
+        let far = far_sight::<2>(&*sampler);
+        let n = 400;
+        let step = 2.0 * h / f64::from(n);
+        let mut beyond = 0.0;
+        for i in 0..n {
+            for j in -n..n {
+                let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) * step);
+                let w = sampler.at(x.hypot(y)).0;
+                beyond += if x > far { w * step * step } else { 0.0 };
+            }
+        }
+        assert!((beyond / SEEN - 1.0).abs() < 0.03, "{beyond} beyond {far}");
+    }
 }

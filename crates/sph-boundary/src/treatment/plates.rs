@@ -11,7 +11,6 @@ use crate::{Element, ThinWall, WallMesh};
 
 /// Faces whose normals have a cosine below this are the two of a plate; a wedge of more than 8° has a tip, and no thickness.
 const OPPOSITE: f64 = -0.99;
-
 /// Places that differ by less than the spacing over this along every axis are nearly the same.
 const ALIKE: f64 = 4.0;
 

@@ -14,7 +14,6 @@ use crate::{
 
 /// Least distance of particles from walls over the spacing: that of films, which the density sum lets sink.
 const LEAST_CLEARANCE: f64 = 0.1;
-
 /// Size of elements over the spacing: γ and ∇γ do not depend on it, and no mean over elements enters a pressure.
 const ELEMENT: f64 = 2.0;
 

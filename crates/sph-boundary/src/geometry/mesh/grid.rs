@@ -6,10 +6,8 @@ use crate::geometry::vector::{bounds, dot, sub};
 
 /// Most cells per registered element: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 8;
-
 /// Size of a cell over the reach.
 const PART_OF_REACH: f64 = 0.5;
-
 /// Rounding of a squared distance, relative.
 pub(super) const ROUNDING: f64 = 1e-9;
 

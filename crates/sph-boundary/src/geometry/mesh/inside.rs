@@ -11,16 +11,12 @@ use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 pub(crate) const SAME_HEIGHT: f64 = 1e-12;
-
 /// Places whose distances differ by less than this part are equally near.
 pub(crate) const SAME_DISTANCE: f64 = 1e-9;
-
 /// Spacings within which the nearest wall decides if there are free edges.
 const FRONT: f64 = 4.0;
-
 /// Part of the spacing that rounding may move the rim of an element.
 const RIM: f64 = 1e-9;
-
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
 

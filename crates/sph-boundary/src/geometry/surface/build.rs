@@ -173,7 +173,6 @@ impl Mesh<3> {
     }
 }
 
-/// A remark for every wall with faces that bound no fluid.
 fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
     let remark = |(wall, surface): (usize, &Surface)| {
         let all = pieces.iter().zip(seen);

@@ -21,12 +21,13 @@ pub(super) struct Contact {
 }
 
 enum Intersection {
-    /// They are apart or touch.
     Apart,
-    /// They cross near a place.
     Cross(Point),
     /// They lie in one plane and cover each other, with equal or opposite normals.
-    Cover { opposite: bool, at: Point },
+    Cover {
+        opposite: bool,
+        at: Point,
+    },
 }
 
 /// Contacts of walls face to face; refuses triangles that cross and pieces drawn twice.

@@ -8,13 +8,10 @@ use crate::parallel::*;
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;
-
 /// Altitude over longest edge below which a triangle is a needle.
 const NEEDLE: f64 = 1e-6;
-
 /// Surfaces smaller than this many spacings are refused.
 const SMALLEST: f64 = 2.0;
-
 /// Most triangles of all walls together.
 pub(super) const MOST_ELEMENTS: u64 = 20_000_000;
 

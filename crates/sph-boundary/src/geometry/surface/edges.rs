@@ -16,7 +16,6 @@ use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened
 pub(super) struct Nodes {
     pub positions: Vec<Point>,
     pub walls: Vec<usize>,
-    /// The node at each corner of a patch.
     pub at_corner: HashMap<u32, u32>,
     /// First of the nodes within each straight piece of an edge, and the number of equal parts.
     within: HashMap<EdgeKey, (u32, u32)>,

@@ -14,7 +14,6 @@ use crate::geometry::vector::{Plane, Point, add, norm, perp, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;
-
 /// Part of a length or an area that may be rounding.
 const ROUNDING: f64 = 1e-9;
 

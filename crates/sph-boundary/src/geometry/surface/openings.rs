@@ -1,4 +1,4 @@
-//! What a node stands for, and edges that no other triangle continues.
+//! Angles and shares of nodes, and edges that no other triangle continues.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;

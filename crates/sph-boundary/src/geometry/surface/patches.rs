@@ -21,7 +21,6 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// The boundary as closed loops of corners.
     pub fn loops(&self) -> Vec<Vec<Site>> {
         let mut after: HashMap<Site, Vec<usize>> = HashMap::new();
         for (e, edge) in self.boundary.iter().enumerate() {

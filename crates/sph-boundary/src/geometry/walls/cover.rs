@@ -7,7 +7,6 @@ use crate::{NearElement, SeenElement, WallMesh};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
-
 /// Radius of the search for elements around a node, over the spacing: those within 2 spacings, and those that may come
 /// there until the next search.
 const FAR: f64 = 2.8;

@@ -19,7 +19,6 @@ use crate::{
 const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 /// A place is in a plane if it is this near to it, relatively.
 const SAME_PLANE: f64 = 1e-6;
-
 /// A place of a dummy particle nearer to the fluid's side than this share of the spacing is left out.
 const TOO_NEAR: f64 = 0.25;
 

@@ -91,7 +91,6 @@ impl Edge {
         Clip::Between(from, to)
     }
 
-    /// φ of the whole edge.
     #[inline]
     pub fn angle(&self) -> f64 {
         let (y1, y2) = (self.from.y, self.to.y);

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use sph_kernels::{PiecewisePolynomial, Sampler, polynomial_sampler};
 
 use super::edge::{Clip, Edge, Winding};
-use super::knot::{self, Knot};
-use super::outer_moment::OuterMoment;
+use super::knot::{self, Knot, OuterMoment};
 use crate::error::Result;
 use crate::geometry::vector::{Point, along, cross, dot};
 use crate::integrals::normalisation;

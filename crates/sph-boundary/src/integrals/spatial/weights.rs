@@ -46,7 +46,6 @@ impl Patch {
         (patch, Circle { centre, radius })
     }
 
-    /// Squared distances from the point over the foot, m².
     #[inline(always)]
     fn squared_distances(&self, foot: &Foot) -> SquaredDistances<f64> {
         let height2 = foot.height * foot.height;
