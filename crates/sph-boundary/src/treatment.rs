@@ -16,6 +16,9 @@ pub(crate) mod symmetric;
 pub(crate) mod touching;
 pub(crate) mod usaw;
 
+/// Outcome of a wall stage.
+pub(crate) type Staged = Result<(), sph_core::StepError>;
+
 /// A failure of the wall stages.
 pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {
     sph_core::StepError::stage("walls", reason.to_string())

@@ -80,12 +80,9 @@ pub struct RigidBody {
     settled: Option<(Dynamics, Touch)>,
 }
 
-type MoverResult<T> = Result<T, MoverRefusal>;
+type Checked<T> = Result<T, MoverRefusal>;
 
-fn vector<const D: usize>(
-    key: &str,
-    given: &Option<Vec<f64>>,
-) -> MoverResult<Option<Vector3<f64>>> {
+fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Checked<Option<Vector3<f64>>> {
     match given {
         None => Ok(None),
         Some(given) if given.len() == D => Ok(Some(padded(given))),
@@ -93,19 +90,16 @@ fn vector<const D: usize>(
     }
 }
 
-fn refused<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
+fn refused<T>(key: &str, why: impl Into<String>) -> Checked<T> {
     Err(MoverRefusal::at_key(key, why))
 }
 
-fn wrong_count<T>(key: &str, found: usize, expected: &str) -> MoverResult<T> {
+fn wrong_count<T>(key: &str, found: usize, expected: &str) -> Checked<T> {
     refused(key, format!("{found} numbers, {expected} are expected"))
 }
 
 impl RigidBody {
-    fn weighed<const D: usize>(
-        &self,
-        setting: &MoverSetting<'_, D>,
-    ) -> MoverResult<MassProperties> {
+    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<MassProperties> {
         let solid = Solid::from_pieces(setting.pieces());
         let solid = solid.or_else(|e| refused("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
@@ -145,7 +139,7 @@ impl RigidBody {
         })
     }
 
-    fn freedoms<const D: usize>(&self) -> MoverResult<[bool; 6]> {
+    fn freedoms<const D: usize>(&self) -> Checked<[bool; 6]> {
         let there = Freedom::in_dimension(D);
         let names: Vec<&str> = there.iter().map(|f| f.name()).collect();
         let names = names.join(", ");
@@ -211,7 +205,7 @@ fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
 }
 
 /// Refuses a body that holds a corner of another wall, or has one in it.
-fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<()> {
+fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> Checked<()> {
     let own = || setting.pieces();
     for other in setting.others() {
         let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
@@ -232,7 +226,7 @@ struct MassProperties {
     dry: bool,
 }
 
-fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
+fn tensor<const D: usize>(given: &[f64]) -> Checked<Matrix3<f64>> {
     let tensor = match (D, given) {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
         (3, [x, y, z]) => Matrix3::from_diagonal(&Vector3::new(*x, *y, *z)),
@@ -257,7 +251,7 @@ fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
 }
 
 impl<const D: usize> Mover<D> for RigidBody {
-    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Checked<()> {
         if !setting.flush {
             let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
                        `vertices = false`";
@@ -306,8 +300,8 @@ impl<const D: usize> Mover<D> for RigidBody {
     }
 
     fn pulls(&self, now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
-        let settled = self.settled.iter();
-        settled.flat_map(|(d, _)| d.pulls(now)).collect()
+        let settled = self.settled.as_ref();
+        settled.map_or(Vec::new(), |(dynamics, _)| dynamics.pulls(now))
     }
 
     fn start(&self) -> RigidState<D> {

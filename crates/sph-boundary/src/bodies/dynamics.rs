@@ -155,18 +155,16 @@ impl Dynamics {
     }
 
     /// Force of every line on the body, and its tension at the anchor, in a state.
-    pub fn pulls<const D: usize>(
-        &self,
-        now: &RigidState<D>,
-    ) -> impl Iterator<Item = (Vect<D>, f64)> {
+    pub fn pulls<const D: usize>(&self, now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         let (turn, shift) = (rotation(now), padded(&now.pose.translation));
         let velocity = six(padded(now.velocity.as_slice()), now.angular_velocity.into());
-        self.lines.iter().map(move |line| {
+        let of_line = |line| {
             let pull = self.pull(line, &turn, &shift, &velocity);
             pull.map_or((Vect::zeros(), 0.0), |pull| {
                 (Vect::from_fn(|k, _| pull.force[k]), pull.anchor)
             })
-        })
+        };
+        self.lines.iter().map(of_line).collect()
     }
 
     /// The mean angular velocity over a step at whose end the angular momentum is L, and that at its end: the inertia

@@ -166,11 +166,7 @@ pub(crate) fn wedges(mut around: Vec<AdjacentFace>) -> Vec<[usize; 2]> {
 ///
 /// `severed` are pieces that nothing continues at some place, each with those that do go on there. What hangs together
 /// with one of them ends on the back of another wall, so that no fluid can be before it, if those others end nowhere.
-pub(crate) fn bound_fluid(
-    mut parts: Sets,
-    count: usize,
-    severed: &[(usize, Vec<usize>)],
-) -> Vec<bool> {
+pub(crate) fn bound_fluid(mut parts: Sets, n: usize, severed: &[(usize, Vec<usize>)]) -> Vec<bool> {
     let ends = severed.iter().map(|(piece, _)| parts.root(*piece));
     let ends: HashSet<usize> = ends.collect();
     let mut outside: BTreeMap<usize, bool> = ends.iter().map(|part| (*part, true)).collect();
@@ -179,7 +175,7 @@ pub(crate) fn bound_fluid(
         *outside.entry(parts.root(*piece)).or_default() &= whole && !others.is_empty();
     }
     let mut bounds = |piece| !outside.get(&parts.root(piece)).copied().unwrap_or(false);
-    (0..count).map(&mut bounds).collect()
+    (0..n).map(&mut bounds).collect()
 }
 
 #[cfg(test)]

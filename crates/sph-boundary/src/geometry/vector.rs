@@ -66,10 +66,7 @@ pub(crate) fn perp<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
 
 /// The part of the way along the segment between two points at which it is nearest to another one, and the way from
 /// there to that one.
-pub(crate) fn foot_on_segment<const D: usize>(
-    p: [f64; D],
-    [a, b]: [[f64; D]; 2],
-) -> (f64, [f64; D]) {
+pub(crate) fn foot_on_edge<const D: usize>(p: [f64; D], [a, b]: [[f64; D]; 2]) -> (f64, [f64; D]) {
     let (t, to) = (sub(b, a), sub(p, a));
     let length2 = dot(t, t);
     let part = if length2 > 0.0 {
@@ -81,7 +78,7 @@ pub(crate) fn foot_on_segment<const D: usize>(
 }
 
 pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], ends: [[f64; D]; 2]) -> f64 {
-    norm(foot_on_segment(p, ends).1)
+    norm(foot_on_edge(p, ends).1)
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -100,16 +100,12 @@ pub trait WallMesh<const D: usize>:
     /// Buffers of a task that finds γ.
     type Scratch: Default + Send + Sync + std::fmt::Debug;
 
-    /// Meshes the walls; queries look up to `reach` metres far.
+    /// Meshes the walls by elements of a size, m; queries look up to `reach` metres far.
     ///
     /// # Errors
     /// If a wall is refused; the message names it.
-    fn build(
-        walls: &[WallSpec<D>],
-        spacing: f64,
-        reach: f64,
-        domain: &PeriodicBox<D>,
-    ) -> Result<Self>;
+    fn build(walls: &[WallSpec<D>], size: f64, reach: f64, domain: &PeriodicBox<D>)
+    -> Result<Self>;
 
     /// Integrals of a kernel shape with a smoothing length, m.
     ///

@@ -7,7 +7,7 @@ use sph_neighbours::{ContactBlock, WallSet, World};
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
-use crate::treatment::stage_error;
+use crate::treatment::{Staged, stage_error};
 use crate::{BoundaryError, Gammas, Result, WallMesh, WallSetup};
 
 /// Walls of elements as both treatments have them: mesh, integrals, contacts.
@@ -74,7 +74,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             *own = normal;
         }
         for (s, element) in outline.mesh.elements().iter().enumerate() {
-            let (centre, movement) = outline.seen_place(walls, element.wall, element.centre.into());
+            let (centre, movement) = outline.seen(walls, element.wall, element.centre.into());
             let elements = &mut walls.elements;
             elements.centre[s] = centre;
             elements.normal[s] = element.normal.into();
@@ -237,12 +237,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 
     /// Keeps particles off the walls, by a share of the spacing at least.
-    pub fn constrain(
-        &mut self,
-        world: &mut World<D>,
-        dt: f64,
-        least: f64,
-    ) -> Result<(), StepError> {
+    pub fn constrain(&mut self, world: &mut World<D>, dt: f64, least: f64) -> Staged {
         // Heights over the planes of all elements in reach bound the distances from below.
         let clearance = |place: usize| self.clearance.get(place).copied().unwrap_or(0.0);
         let (near, outline) = (&self.near, &self.outline);

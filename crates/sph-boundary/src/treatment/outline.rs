@@ -179,12 +179,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// A place of a wall as others see it, in the box, and the movement of the wall there.
-    pub fn seen_place(
-        &self,
-        walls: &WallSet<D>,
-        wall: usize,
-        place: Vect<D>,
-    ) -> (Vect<D>, Movement<D>) {
+    pub fn seen(&self, walls: &WallSet<D>, wall: usize, place: Vect<D>) -> (Vect<D>, Movement<D>) {
         let frame = walls.frames.get(wall);
         let seen = frame.map_or(place, |frame| place - frame.round);
         (seen, self.movement(wall, &place))
@@ -192,7 +187,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Puts a wall point at a place of its wall.
     pub fn put_point(&self, walls: &mut WallSet<D>, point: usize, wall: usize, place: Vect<D>) {
-        let (seen, movement) = self.seen_place(walls, wall, place);
+        let (seen, movement) = self.seen(walls, wall, place);
         let points = &mut walls.points;
         points.position[point] = seen;
         points.velocity[point] = movement.velocity;

@@ -4,6 +4,7 @@ use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
+use crate::treatment::Staged;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
@@ -56,11 +57,7 @@ struct Scales<const D: usize, M> {
 
 impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
     /// s, ∇ ln s and ∂ ln s/∂t of all particles, and which wall has which part.
-    fn update(
-        &mut self,
-        world: &mut World<D>,
-        outline: Option<&Outline<D, M>>,
-    ) -> Result<(), StepError> {
+    fn update(&mut self, world: &mut World<D>, outline: Option<&Outline<D, M>>) -> Staged {
         let mut scale = world.free.take(fields::SCALE)?;
         let mut slope = world.free.take(fields::SCALE_SLOPE)?;
         let positions = world.free.get(fields::POSITION)?;

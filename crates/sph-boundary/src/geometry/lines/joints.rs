@@ -21,17 +21,13 @@ struct OpenEnd {
     position: [f64; 2],
 }
 
-pub(super) fn joints(
-    polylines: &[Polyline],
-    tolerance: f64,
-    domain: &PeriodicBox,
-) -> Result<Joints> {
+pub(super) fn joints(lines: &[Polyline], tolerance: f64, domain: &PeriodicBox) -> Result<Joints> {
     let alone = |(wall, line): (usize, &Polyline)| line.closed.then_some((wall, [0; 2]));
     let mut joints = Joints {
-        after: polylines.iter().enumerate().map(alone).collect(),
-        starts_free: polylines.iter().map(|line| !line.closed).collect(),
+        after: lines.iter().enumerate().map(alone).collect(),
+        starts_free: lines.iter().map(|line| !line.closed).collect(),
     };
-    let ends = open_ends(polylines);
+    let ends = open_ends(lines);
     let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
     let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
     for (i, end) in ends.iter().enumerate() {
@@ -43,7 +39,7 @@ pub(super) fn joints(
         let mut near = near(&tree, wrapped(end), tolerance, domain);
         near.retain(|j| *j != i);
         let met: Vec<(&OpenEnd, [i32; 2])> = near.iter().filter_map(met).collect();
-        let name = |end: &OpenEnd| &polylines[end.wall].name;
+        let name = |end: &OpenEnd| &lines[end.wall].name;
         let at = Place::from(end.position);
         match met.as_slice() {
             [] => {}

@@ -30,11 +30,7 @@ pub(super) struct FaceContacts {
 /// open face or another wall closes a pipe that has a thickness, three faces meet: the pipe within, its end, and the
 /// closing face. The first and the last hold the fluid; the end, and what hangs together with it, is the outside of the
 /// pipe. It ends there on the back of another wall, so that no fluid can be before it.
-pub(super) fn wetted_pieces(
-    pieces: &[Patch],
-    cuts: &Cuts<'_>,
-    touched: &FaceContacts,
-) -> Vec<bool> {
+pub(super) fn wetted_pieces(pieces: &[Patch], cuts: &Cuts<'_>, met: &FaceContacts) -> Vec<bool> {
     let mut runs: BTreeMap<EdgeKey, Vec<(usize, bool)>> = BTreeMap::new();
     for (piece, patch) in pieces.iter().enumerate() {
         for edge in &patch.boundary {
@@ -50,8 +46,8 @@ pub(super) fn wetted_pieces(
     for (key, run) in &runs {
         let pairs = match run[..] {
             [(piece, _)] => {
-                if touched.edges.contains(key) {
-                    let others = (0..pieces.len()).filter(|p| touched.pieces[*p]);
+                if met.edges.contains(key) {
+                    let others = (0..pieces.len()).filter(|p| met.pieces[*p]);
                     severed.push((piece, others.collect()));
                 }
                 continue;

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 
 use crate::geometry::cells::listed;
-use crate::geometry::vector::{Plane, bounds, dot, foot_on_segment, perp, sub, widened};
+use crate::geometry::vector::{Plane, bounds, dot, foot_on_edge, perp, sub, widened};
 use crate::integrals::spatial::{Circle, Patch};
 use crate::{FaceEdge, Mesh};
 
@@ -242,7 +242,7 @@ fn weights([a, b, c]: &[[f64; 2]; 3], x: [f64; 2]) -> [f64; 3] {
 fn nearest_in(corners: &[[f64; 2]; 3], x: [f64; 2]) -> (f64, [f64; 3]) {
     let mut found = (f64::INFINITY, [1.0, 0.0, 0.0]);
     for k in 0..3 {
-        let (part, off) = foot_on_segment(x, [corners[k], corners[(k + 1) % 3]]);
+        let (part, off) = foot_on_edge(x, [corners[k], corners[(k + 1) % 3]]);
         let distance2 = dot(off, off);
         if distance2 < found.0 {
             let mut weights = [0.0; 3];

@@ -84,12 +84,7 @@ impl WallMesh<2> for Walls<2> {
     type Integrals = Renormalisation2d;
     type Scratch = SegmentBatch;
 
-    fn build(
-        walls: &[WallSpec<2>],
-        spacing: f64,
-        reach: f64,
-        domain: &PeriodicBox<2>,
-    ) -> Result<Self> {
+    fn build(walls: &[WallSpec<2>], size: f64, reach: f64, domain: &PeriodicBox) -> Result<Self> {
         let line = |spec: &WallSpec<2>| match &spec.drawing {
             Drawing::Line(line) => check_points(line).map(|()| line.clone()),
             Drawing::Surface(surface) => Err(BoundaryError::unfit(
@@ -98,11 +93,11 @@ impl WallMesh<2> for Walls<2> {
             )),
         };
         let lines: Vec<Polyline> = walls.iter().map(line).collect::<Result<_, _>>()?;
-        let pieces = without_shared(&lines, &groups(walls), spacing)?;
-        let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * spacing);
+        let pieces = without_shared(&lines, &groups(walls), size)?;
+        let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * size);
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
-        let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, spacing, domain)?;
+        let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, size, domain)?;
         mesh.warnings.extend(unseen);
         mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
         mesh.beds = laid(&mesh, walls, domain)?;

@@ -29,12 +29,7 @@ impl WallMesh<3> for Walls<3> {
     type Integrals = Renormalisation3d;
     type Scratch = Weights;
 
-    fn build(
-        walls: &[WallSpec<3>],
-        spacing: f64,
-        reach: f64,
-        domain: &PeriodicBox<3>,
-    ) -> Result<Self> {
+    fn build(all: &[WallSpec<3>], size: f64, reach: f64, domain: &PeriodicBox<3>) -> Result<Self> {
         let surface = |spec: &WallSpec<3>| match &spec.drawing {
             Drawing::Surface(surface) => Ok(surface.clone()),
             Drawing::Line(line) => Err(BoundaryError::unfit(
@@ -42,14 +37,14 @@ impl WallMesh<3> for Walls<3> {
                 "is not drawn for 3 dimensions: a polyline is a wall of two, a surface one of three",
             )),
         };
-        let surfaces: Vec<Surface> = walls.iter().map(surface).collect::<Result<_, _>>()?;
-        let mut mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
-        mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
-        mesh.beds = laid(&mesh, walls, domain)?;
+        let surfaces: Vec<Surface> = all.iter().map(surface).collect::<Result<_, _>>()?;
+        let mut mesh = Mesh::<3>::build(&surfaces, &groups(all), size, domain)?;
+        mesh.motions = all.iter().map(|wall| wall.motion.clone()).collect();
+        mesh.beds = laid(&mesh, all, domain)?;
         mesh.part_faces();
         // Ports of open faces are of elements.
-        let open = walls.iter().any(|wall| wall.open);
-        let mut walls = Walls::new(mesh, walls, reach);
+        let open = all.iter().any(|wall| wall.open);
+        let mut walls = Walls::new(mesh, all, reach);
         let motions = &walls.mesh.motions;
         let cut = |wall: usize| open || motions[wall].bends();
         walls.planes = Planes::new(&walls.mesh, cut);

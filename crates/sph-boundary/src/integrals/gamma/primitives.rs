@@ -165,12 +165,8 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    pub fn new(
-        shape: &PiecewisePolynomial,
-        piece: &[f64],
-        [inner, outer]: [f64; 2],
-        sigma: f64,
-    ) -> Self {
+    pub fn new(shape: &PiecewisePolynomial, piece: &[f64], ends: [f64; 2], sigma: f64) -> Self {
+        let [inner, outer] = ends;
         let middle = 0.5 * (inner + outer);
         let f = algebra::scaled(&algebra::expanded_about(piece, middle), sigma);
         // σ f q, its primitive G, and K/2π = K(outer)/2π + G(outer) − G.
