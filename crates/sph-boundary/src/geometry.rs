@@ -2,7 +2,6 @@
 
 pub(crate) mod cells;
 pub(crate) mod checks;
-pub(crate) mod drawing;
 pub(crate) mod junctions;
 pub(crate) mod lines;
 pub(crate) mod mesh;

@@ -42,7 +42,6 @@ mod treatment;
 
 pub use error::BoundaryError;
 pub(crate) use error::Result;
-pub use geometry::drawing::Drawing;
 pub use geometry::mesh::{
     Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, NearRows, Node,
     Opening, SeenElement,
@@ -51,10 +50,10 @@ pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;
 pub use geometry::polyline::{FreeEnd, Polyline, WallEnd};
 pub use geometry::shells::{Gammas, Shells};
-pub use geometry::surface::Surface;
+pub use geometry::surface::{Drawing, Surface};
+pub use integrals::GammaSum;
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
-pub use integrals::sum::GammaSum;
 pub use rigid::motion::{Bend, Erodible, RigidMotion};
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
@@ -62,9 +61,8 @@ pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 #[cfg(feature = "plugins")]
 pub use crate::{
     geometry::walls::{Hindrance, PlanarWalls, SpatialWalls, View, WallMesh, Walls},
-    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
+    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Spring, Touch},
     rigid::rigid_state::{Movement, RigidState},
-    rigid::spring::Spring,
     treatment::contract::{
         ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
         WallStates,

@@ -6,5 +6,3 @@ pub(crate) mod mover;
 pub(crate) mod pose;
 #[cfg(feature = "plugins")]
 pub(crate) mod rigid_state;
-#[cfg(feature = "plugins")]
-pub(crate) mod spring;

@@ -5,8 +5,7 @@
 //!   that bound no fluid;
 //! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on both sides of every edge;
 //! * `openings`: what a node stands for, and where the walls end;
-//! * `bed_faces`: faces that a bed lifts;
-//! * `outside`: which side is the fluid's.
+//! * `bed_faces`: faces that a bed lifts.
 
 mod bed_faces;
 mod build;
@@ -16,12 +15,11 @@ mod edges;
 mod fill;
 mod lattice;
 mod openings;
-mod outside;
 mod patches;
 mod places;
 mod wetted;
 
-pub use drawn::Surface;
+pub use drawn::{Drawing, Surface};
 
 /// A box with the fluid outside.
 #[cfg(test)]

@@ -4,8 +4,7 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::near_element::NearElement;
-use super::sides::Sides;
+use super::grid::{NearElement, Sides};
 use crate::geometry::vector::{Point, add, sub};
 use crate::{FreeEnd, PeriodicBox, Pose, RigidMotion};
 

@@ -4,9 +4,7 @@ use sph_core::BoxTree;
 
 use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
-use super::grid::Grid;
-use super::near_element::NearElement;
-use super::sides::{Rays, Sides, flattened};
+use super::grid::{Grid, NearElement, Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.

@@ -2,8 +2,7 @@
 
 use super::closest::nearest_to_origin;
 use super::elements::Mesh;
-use super::grid::{Grid, ROUNDING, Sphere};
-use super::near_element::{NearElement, NearRows};
+use super::grid::{Grid, NearElement, NearRows, ROUNDING, Sphere};
 use crate::geometry::vector::{add, bounds, dot, norm, sub};
 
 /// Diagonal of the box around points that are served together, over the radius.
