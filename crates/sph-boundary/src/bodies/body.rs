@@ -81,6 +81,7 @@ pub struct RigidBody {
 }
 
 type Checked<T> = Result<T, MoverRefusal>;
+type Weighed = (f64, Vector3<f64>, Matrix3<f64>, bool);
 
 fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Checked<Option<Vector3<f64>>> {
     match given {
@@ -99,7 +100,8 @@ fn wrong_count<T>(key: &str, found: usize, expected: &str) -> Checked<T> {
 }
 
 impl RigidBody {
-    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<MassProperties> {
+    /// Mass, centre and inertia; true if the body is too light for any fluid.
+    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<Weighed> {
         let solid = Solid::from_pieces(setting.pieces());
         let solid = solid.or_else(|e| refused("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
@@ -131,12 +133,7 @@ impl RigidBody {
             }
             (None, None) => solid.inertia * density,
         };
-        Ok(MassProperties {
-            mass,
-            centre: centre.unwrap_or(solid.centre),
-            inertia,
-            dry,
-        })
+        Ok((mass, centre.unwrap_or(solid.centre), inertia, dry))
     }
 
     fn freedoms<const D: usize>(&self) -> Checked<[bool; 6]> {
@@ -219,13 +216,6 @@ fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> Checked<()> 
     Ok(())
 }
 
-struct MassProperties {
-    mass: f64,
-    centre: Vector3<f64>,
-    inertia: Matrix3<f64>,
-    dry: bool,
-}
-
 fn tensor<const D: usize>(given: &[f64]) -> Checked<Matrix3<f64>> {
     let tensor = match (D, given) {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
@@ -257,13 +247,12 @@ impl<const D: usize> Mover<D> for RigidBody {
                        `vertices = false`";
             return refused("", why);
         }
-        let weighed = self.weighed(setting)?;
+        let (mass, centre, inertia, dry) = self.weighed(setting)?;
         check_separate(setting)?;
         let free = self.freedoms::<D>()?;
         let lines = self.line.iter().enumerate();
         let lines = lines.map(|(k, line)| Mooring::new(line, k, setting));
         let lines: Vec<_> = lines.collect::<Result<_, _>>()?;
-        let centre = weighed.centre;
         let corners = setting.pieces().flat_map(corners);
         let far = corners.map(|x| (x - centre).norm());
         let bounds = [far.fold(0.0, f64::max), setting.sound_speed];
@@ -275,14 +264,14 @@ impl<const D: usize> Mover<D> for RigidBody {
         }
         let [_, heaviest] = setting.densities;
         let pieces = || setting.pieces();
-        let layer = layer(pieces(), weighed.centre, heaviest, setting.smoothing_length);
+        let layer = layer(pieces(), centre, heaviest, setting.smoothing_length);
         // The trace of Σ S n nᵀ is the surface.
         let surface =
             (layer[(0, 0)] + layer[(1, 1)] + layer[(2, 2)]) / (heaviest * setting.smoothing_length);
         let dynamics = Dynamics {
-            mass: weighed.mass,
-            centre: weighed.centre,
-            inertia: weighed.inertia,
+            mass,
+            centre,
+            inertia,
             layer,
             free,
             holds: self.hold.all().collect(),
@@ -290,7 +279,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             start: self.start,
             prescribed: self.prescribed.clone(),
         };
-        let touch = self.touch_of(setting, &dynamics, (surface, weighed.dry));
+        let touch = self.touch_of(setting, &dynamics, (surface, dry));
         self.settled = Some((dynamics, touch));
         Ok(())
     }

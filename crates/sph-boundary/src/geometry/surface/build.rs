@@ -73,7 +73,7 @@ impl Mesh<3> {
             sides.push(nodes.collect::<Vec<_>>());
         }
         let position = |node: u32| nodes.positions[node as usize];
-        let both = patches.par_iter().zip(&sides);
+        let both = patches.as_slice().into_par_iter().zip(&sides);
         let filled = both.map(|(patch, sides)| fill(patch, sides, &position, domain, spacing));
         let filled: Vec<Result<Filling, String>> = filled.collect();
 
@@ -211,8 +211,8 @@ fn planar_pieces(
         drawn.extend(own);
     }
     let domain = places.domain;
-    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
-    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
+    let contacts = contacts(surfaces, &drawn, tolerance, &domain)?;
+    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places);
     for piece in &mut pieces {
         piece.straighten(places, tolerance);
     }

@@ -36,7 +36,6 @@ enum Intersection {
 /// the other triangle's plane is on it.
 pub(super) fn contacts(
     surfaces: &[Surface],
-    groups: &[usize],
     drawn: &[Drawn],
     tolerance: f64,
     domain: &PeriodicBox<3>,
@@ -70,7 +69,7 @@ pub(super) fn contacts(
         for (other, image) in found {
             let both = [&drawn[t], &drawn[other]];
             let shift = domain.shift(image);
-            if touch(surfaces, groups, both, shift, tolerance)? {
+            if touch(surfaces, both, shift, tolerance)? {
                 contacts.push(Contact {
                     triangle: t as u32,
                     other: other as u32,
@@ -97,16 +96,10 @@ pub(super) fn contacts(
 ///
 /// # Errors
 /// If they cross, or one covers the other where it must not.
-fn touch(
-    surfaces: &[Surface],
-    groups: &[usize],
-    [a, b]: [&Drawn; 2],
-    shift: Point,
-    tolerance: f64,
-) -> Result<bool> {
+fn touch(surfaces: &[Surface], [a, b]: [&Drawn; 2], shift: Point, tolerance: f64) -> Result<bool> {
     let moved = a.places.map(|p| add(p, shift));
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
-    let together = groups[a.wall] == groups[b.wall];
+    let together = a.group == b.group;
     match meeting {
         Intersection::Cross(at) => {
             let both = [a, b].map(|d| (&surfaces[d.wall].name[..], d.index));

@@ -70,6 +70,8 @@ fn cut<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
 
 pub(super) struct Drawn {
     pub wall: usize,
+    /// Of its wall.
+    pub group: usize,
     /// Its number in the wall.
     pub index: usize,
     pub corners: [Site; 3],
@@ -172,6 +174,7 @@ pub(super) fn weld(
         }
         drawn.push(Drawn {
             wall,
+            group,
             index,
             corners,
             places: at,

@@ -12,6 +12,8 @@ const SAME_DIRECTION: f64 = 0.99;
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub wall: usize,
+    /// Of its wall.
+    pub group: usize,
     /// Unit normal, into the fluid.
     pub normal: Point,
     /// A point of its plane, m.
@@ -139,6 +141,7 @@ pub(super) fn patches(
             numbers[seed] = patches.len() as u32;
             patches.push(Patch {
                 wall: d.wall,
+                group: d.group,
                 normal: drawn[seed].normal,
                 origin: drawn[seed].places[0],
                 boundary: Vec::new(),

@@ -48,6 +48,7 @@ pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
     (key, forward, first.image)
 }
 
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct HalfEdge {
     pub key: EdgeKey,
     pub triangle: u32,
@@ -73,7 +74,7 @@ pub(super) fn half_edges(triangles: impl Iterator<Item = [Site; 3]>) -> Vec<Half
         })
     };
     let mut halves: Vec<HalfEdge> = triangles.enumerate().flat_map(of).collect();
-    halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
+    halves.par_sort_unstable();
     halves
 }
 

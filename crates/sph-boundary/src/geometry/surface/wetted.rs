@@ -99,7 +99,6 @@ pub(super) fn remove_contacts(
     patch_of: &[u32],
     contacts: &[Contact],
     places: &mut Places,
-    groups: &[usize],
 ) -> FaceContacts {
     let mut covers: BTreeMap<u32, BTreeSet<(u32, [i32; 3])>> = BTreeMap::new();
     for contact in contacts {
@@ -113,7 +112,7 @@ pub(super) fn remove_contacts(
     }
     let covered = covers.keys().flat_map(|p| &patches[*p as usize].boundary);
     let edges = covered.map(|[a, b]| edge_key(*a, *b).0).collect();
-    let mut rest = |p: u32, others| difference(p as usize, others, patches, places, groups);
+    let mut rest = |p: u32, others| difference(p as usize, others, patches, places);
     let left = covers.iter().map(|(p, others)| (*p, rest(*p, others)));
     let left: BTreeMap<u32, Vec<Patch>> = left.collect();
     let mut pieces = Vec::new();
@@ -131,7 +130,6 @@ fn difference(
     others: &BTreeSet<(u32, [i32; 3])>,
     patches: &[Patch],
     places: &mut Places,
-    groups: &[usize],
 ) -> Vec<Patch> {
     let whole = &patches[patch];
     let [from, to] = whole.boundary[0].map(|c| places.at(c));
@@ -165,14 +163,13 @@ fn difference(
         overlay.add_contour(&whole_numbers(contour), ShapeType::Clip);
     }
     let shapes = overlay.overlay(OverlayRule::Difference, FillRule::NonZero);
-    let group = groups[whole.wall];
     let mut left = Vec::new();
     for shape in shapes {
         let mut edges: BTreeMap<[Site; 2], i32> = BTreeMap::new();
         for contour in &shape {
             let corner = |p: &IntPoint<i64>| {
                 let x = [p.x as f64 / scale, p.y as f64 / scale];
-                places.find(plane.place(x), group)
+                places.find(plane.place(x), whole.group)
             };
             let corners: Vec<Site> = contour.iter().map(corner).collect();
             for (k, a) in corners.iter().enumerate() {
