@@ -10,7 +10,6 @@ pub(crate) mod plate;
 pub(crate) mod polyline;
 pub(crate) mod shells;
 pub(crate) mod surface;
-pub(crate) mod touching;
 pub(crate) mod vector;
 #[cfg(feature = "plugins")]
 pub(crate) mod walls;

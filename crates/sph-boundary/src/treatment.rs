@@ -16,7 +16,6 @@ pub(crate) mod symmetric;
 pub(crate) mod touching;
 pub(crate) mod usaw;
 
-/// Outcome of a wall stage.
 pub(crate) type Staged = Result<(), sph_core::StepError>;
 
 /// A failure of the wall stages.

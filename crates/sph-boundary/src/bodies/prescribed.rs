@@ -63,21 +63,19 @@ pub(crate) fn check<const D: usize>(
         let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut last = f64::NEG_INFINITY;
         for (n, row) in one.course.iter().enumerate() {
+            let refused_row = |why: String| refused("course", format!("row {n} {why}"));
             let found = row.len();
             if found != columns {
-                let why = format!("row {n} has {found} numbers, {columns} are expected");
-                return refused("course", why);
+                return refused_row(format!("has {found} numbers, {columns} are expected"));
             }
             if !row.iter().all(|x| x.is_finite()) {
-                let why = format!("row {n} has a number that is not finite");
-                return refused("course", why);
+                return refused_row("has a number that is not finite".into());
             }
             let speed = size(&row[1..=D]) + radius * size(&row[D + 1..]);
             if speed >= sound {
-                let why = format!(
-                    "row {n} moves the body with {speed:.3e} m/s, faster than sound, {sound:.3} m/s"
-                );
-                return refused("course", why);
+                return refused_row(format!(
+                    "moves the body with {speed:.3e} m/s, faster than sound, {sound:.3} m/s"
+                ));
             }
             if row[0] <= last {
                 let why = format!("the time of row {n} is not after that of the row before it");

@@ -11,7 +11,6 @@ use std::borrow::BorrowMut;
 use std::sync::OnceLock;
 
 use sph_core::Vect;
-use sph_core::bed::Bed;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
@@ -58,15 +57,6 @@ impl<const D: usize> Walls<D> {
     pub(crate) fn grid(&self) -> &Grid<D> {
         self.grid
             .get_or_init(|| Grid::build(&self.mesh, self.reach))
-    }
-
-    /// Sets the levels of the beds that walls follow, from the next motion on.
-    pub(crate) fn lay(&mut self, beds: &[Bed]) {
-        beds.clone_into(&mut self.mesh.beds);
-    }
-
-    pub(crate) fn forget_places(&mut self) {
-        self.grid = OnceLock::new();
     }
 }
 

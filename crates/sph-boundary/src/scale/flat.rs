@@ -32,7 +32,6 @@ pub(crate) struct PlaneScale {
 }
 
 impl PlaneScale {
-    /// Of a kernel in `dimension` dimensions.
     pub fn new(kernel: &dyn Kernel, dimension: usize) -> Self {
         let line = AlongWall {
             sampler: kernel.sampler(dimension, 1.0),

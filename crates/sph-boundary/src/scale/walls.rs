@@ -26,7 +26,6 @@ pub(crate) struct WallScales<const D: usize, M> {
 struct Group<const D: usize, M> {
     wall: u32,
     walls: Vec<u32>,
-    /// The mesh as drawn.
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,

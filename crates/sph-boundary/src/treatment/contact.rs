@@ -74,7 +74,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         drawn.copied().unwrap_or(GAP * self.spacing)
     }
 
-    /// Contact law of each wall.
     pub(crate) fn touches(&self) -> Vec<Option<Touch>> {
         let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
         self.specs.iter().map(touch).collect()

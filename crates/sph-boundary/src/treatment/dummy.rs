@@ -76,7 +76,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         })
     }
 
-    /// Places the layers where the outline is.
     fn place(&self, walls: &mut WallSet<D>) {
         self.outline.write(walls);
         let maps = self.outline.maps();

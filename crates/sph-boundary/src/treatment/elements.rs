@@ -200,7 +200,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         Ok((set_up, walls))
     }
 
-    /// Contacts and γ at the present positions.
     pub fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         self.near.refresh(&mut self.outline, world)?;
         if self.is_fresh(world.free.get(fields::POSITION)?) {

@@ -201,7 +201,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
         let moved = !self.beds[0].is_empty() || !self.states.iter().map(|s| &s.pose).eq(&poses);
         if moved {
-            self.mesh.walls_mut().lay(&self.beds[0]);
+            self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
             self.mesh.move_walls(&poses)?;
         }
         self.states = states;
@@ -243,10 +243,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         if there == here {
             return Ok(ask(&self.mesh));
         }
-        self.mesh.walls_mut().lay(&self.beds[1]);
+        self.beds[1].clone_into(&mut self.mesh.walls_mut().mesh.beds);
         self.mesh.move_walls(&there)?;
         let answer = ask(&self.mesh);
-        self.mesh.walls_mut().lay(&self.beds[0]);
+        self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
         self.mesh.move_walls(&here)?;
         Ok(answer)
     }

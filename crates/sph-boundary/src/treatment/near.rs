@@ -33,7 +33,6 @@ pub(crate) struct NearLists<const D: usize> {
     /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
     pub behind: Vec<(u32, u32)>,
     rows: Vec<Row<D>>,
-    /// Identities of the particles of the rows.
     identities: Vec<u32>,
     elements: Vec<NearElement<D>>,
     /// Largest travel of a wall, m: the sum over all builds.

@@ -116,7 +116,6 @@ impl<const D: usize> Grid<D> {
 }
 
 impl<const D: usize> Candidates<D> {
-    /// Appends those in reach of a point.
     fn add_reached(&self, point: [f64; D], radius: f64, rows: &mut NearRows<D>) {
         let (elements, mut n) = (&mut rows.elements, 0);
         let from = elements.len();

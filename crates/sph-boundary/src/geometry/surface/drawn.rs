@@ -70,7 +70,6 @@ fn cut<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
 
 pub(super) struct Drawn {
     pub wall: usize,
-    /// Of its wall.
     pub group: usize,
     /// Its number in the wall.
     pub index: usize,

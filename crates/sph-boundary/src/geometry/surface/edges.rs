@@ -70,7 +70,6 @@ impl<'a> Cuts<'a> {
         chain
     }
 
-    /// Nodes along an edge, both corners included.
     pub fn nodes(&self, edge: [Site; 2], nodes: &mut Nodes, wall: usize) -> Vec<Site> {
         let mut sites = Vec::new();
         for pair in self.along(edge).windows(2) {

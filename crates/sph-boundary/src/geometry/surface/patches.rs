@@ -12,7 +12,6 @@ const SAME_DIRECTION: f64 = 0.99;
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub wall: usize,
-    /// Of its wall.
     pub group: usize,
     /// Unit normal, into the fluid.
     pub normal: Point,

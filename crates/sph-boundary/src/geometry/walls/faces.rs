@@ -19,7 +19,6 @@ pub(crate) struct Planes {
     pub ends: Vec<u32>,
     /// By face: its edges, with the corners at hand.
     pub edges: Vec<Vec<[Corner; 2]>>,
-    /// By triangle: its face.
     pub faces: Vec<u32>,
     /// By face: the search for the triangle at a place, where all that a particle sees of the face is one contact; none
     /// where each triangle is one.
@@ -31,7 +30,6 @@ pub(crate) struct Planes {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corner {
-    /// Of its node, m.
     pub position: Vect<3>,
     /// Whole periods to add.
     pub image: [i32; 3],

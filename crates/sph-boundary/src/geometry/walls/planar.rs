@@ -6,9 +6,8 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::checks::check_points;
-use crate::geometry::junctions::bounding;
+use crate::geometry::junctions::{bounding, without_shared};
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
 use crate::treatment::contract::groups;
 use crate::{
@@ -113,7 +112,7 @@ impl WallMesh<2> for Walls<2> {
             return Ok(());
         }
         self.mesh.move_walls(poses)?;
-        self.forget_places();
+        self.grid.take();
         Ok(())
     }
 

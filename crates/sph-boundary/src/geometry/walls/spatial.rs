@@ -57,7 +57,7 @@ impl WallMesh<3> for Walls<3> {
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<()> {
         self.mesh.move_walls(poses)?;
-        self.forget_places();
+        self.grid.take();
         self.planes.follow(&self.mesh);
         Ok(())
     }

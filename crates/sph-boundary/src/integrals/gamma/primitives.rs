@@ -156,7 +156,6 @@ const LONG_RULE: [[f64; 2]; 7] = [
 /// The kernel on inner ≤ q < outer, where it is one polynomial.
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
-    /// Inner and outer radius over h.
     pub inner: f64,
     pub outer: f64,
     middle: f64,

@@ -111,7 +111,6 @@ impl Edge {
         sum.angle()
     }
 
-    /// Θ between two ends.
     #[inline]
     pub fn solid_angle(&self, from: End, to: End) -> f64 {
         let (d, depth) = (self.offset, self.height.abs());
