@@ -322,15 +322,8 @@ mod tests {
             lifts: lifts.into(),
         };
         assert!(bend.is_sound());
-        for (x, rate) in [
-            (0.0, 1.0),
-            (1.0, 1.0),
-            (1.5, 2.0),
-            (2.0, 3.0),
-            (3.5, 0.0),
-            (4.0, -1.0),
-            (9.0, -1.0),
-        ] {
+        let rates = [1.0, 1.0, 2.0, 3.0, 0.0, -1.0, -1.0];
+        for (x, rate) in [0.0, 1.0, 1.5, 2.0, 3.5, 4.0, 9.0].into_iter().zip(rates) {
             let stage = bend.at(x, 0.5);
             assert_eq!([stage.value, stage.rate], [0.5 * rate, rate], "at {x} m");
         }

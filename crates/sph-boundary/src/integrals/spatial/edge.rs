@@ -196,14 +196,8 @@ mod tests {
 
     #[test]
     fn angles_add_up_over_several_turns() {
-        for (step, count) in [
-            (0.7, 40),
-            (-0.7, 40),
-            (3.0, 7),
-            (-3.0, 7),
-            (0.01, 5),
-            (-0.1, 99),
-        ] {
+        let counts = [40, 40, 7, 7, 5, 99];
+        for (step, count) in [0.7, -0.7, 3.0, -3.0, 0.01, -0.1].into_iter().zip(counts) {
             let mut sum = Winding::NONE;
             for i in 0..count {
                 let size = if i % 2 == 0 { 1e-25 } else { 1e33 };
