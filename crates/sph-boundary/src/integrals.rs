@@ -5,10 +5,8 @@ pub(crate) mod spatial;
 
 use sph_kernels::{PiecewisePolynomial, algebra};
 
-use crate::geometry::mesh::{Grid, Mesh};
 use crate::integrals::gamma::{Contact, Renormalisation2d, SegmentIntegral};
-use crate::integrals::spatial::{FacetIntegral, Renormalisation3d};
-use crate::{BoundaryError, Result};
+use crate::{BoundaryError, FacetIntegral, Grid, Mesh, Renormalisation3d, Result};
 
 /// σ of a kernel shape that can be integrated, with a smoothing length h, m, that is one.
 ///

@@ -63,7 +63,16 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
         let reach = FARTHEST * support;
         let domain = PeriodicBox::from_domain(setup.domain);
-        check_reach(setup.walls, &domain)?;
+        domain.check()?;
+        for spec in setup.walls {
+            let periods = domain.periods_to(spec.drawing.points().into_iter());
+            if periods > MOST_PERIODS {
+                let why = format!(
+                    "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
+                );
+                return Err(BoundaryError::unfit(spec.drawing.name(), why));
+            }
+        }
         let start = |spec: &WallSpec<D>| match &spec.mover {
             Some(mover) => mover.start(),
             None => spec.motion.state(0.0),
@@ -299,21 +308,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
         elements
     }
-}
-
-/// Refuses walls that reach so far out of a periodic box that their images would be without number.
-fn check_reach<const D: usize>(walls: &[WallSpec<D>], domain: &PeriodicBox<D>) -> Result<()> {
-    domain.check()?;
-    for spec in walls {
-        let periods = domain.periods_to(spec.drawing.points().into_iter());
-        if periods > MOST_PERIODS {
-            let why = format!(
-                "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
-            );
-            return Err(BoundaryError::unfit(spec.drawing.name(), why));
-        }
-    }
-    Ok(())
 }
 
 /// Share of a particle's kernel that may be behind a wall.

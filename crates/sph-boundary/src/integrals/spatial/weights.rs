@@ -46,12 +46,6 @@ impl Patch {
         (patch, Circle { centre, radius })
     }
 
-    #[inline(always)]
-    fn squared_distances(&self, foot: &Foot) -> SquaredDistances<f64> {
-        let height2 = foot.height * foot.height;
-        SquaredDistances::new(foot.to(self.centre), height2, self.arms, self.squares)
-    }
-
     /// Corners relative to the point over the foot, m, with the plane's normal along the third axis.
     fn corners(&self, foot: &Foot) -> [[f64; 3]; 3] {
         let ([x, y], [a, b]) = (foot.to(self.centre), self.arms);
@@ -157,7 +151,8 @@ impl Weights {
         }
         for (&triangle, weight) in near.iter().zip(weights) {
             let patch = &patches[triangle as usize];
-            let seen = patch.squared_distances(foot);
+            let (centre, height2) = (foot.to(patch.centre), foot.height * foot.height);
+            let seen = SquaredDistances::new(centre, height2, patch.arms, patch.squares);
             match of.rule(seen.centre, patch.area) {
                 Rule::Six => {}
                 Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&seen),
