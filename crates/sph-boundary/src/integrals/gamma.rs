@@ -1,8 +1,6 @@
 //! γ and ∇γ of straight wall segments in closed form.
 
-mod batch;
 mod primitives;
 mod renormalisation;
 
-pub use batch::SegmentBatch;
-pub use renormalisation::{Contact, Renormalisation2d, SegmentIntegral};
+pub use renormalisation::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};

@@ -68,7 +68,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let periods = domain.periods_to(spec.drawing.points().into_iter());
             if periods > MOST_PERIODS {
                 let why = format!(
-                    "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
+                    "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period \
+                     of it"
                 );
                 return Err(BoundaryError::unfit(spec.drawing.name(), why));
             }

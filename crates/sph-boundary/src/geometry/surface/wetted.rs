@@ -1,5 +1,5 @@
-//! Pieces of walls that bound the fluid: without the places where walls touch face to face, and where more than two meet
-//! in an edge.
+//! Pieces of walls that bound the fluid: without the places where walls touch face to face, and where more than two
+//! meet in an edge.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
