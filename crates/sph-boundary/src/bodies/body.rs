@@ -81,7 +81,7 @@ pub struct RigidBody {
 }
 
 type Checked<T> = Result<T, MoverRefusal>;
-type Weighed = (f64, Vector3<f64>, Matrix3<f64>, bool);
+type MassProperties = (f64, Vector3<f64>, Matrix3<f64>, bool);
 
 fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Checked<Option<Vector3<f64>>> {
     match given {
@@ -101,7 +101,7 @@ fn wrong_count<T>(key: &str, found: usize, expected: &str) -> Checked<T> {
 
 impl RigidBody {
     /// Mass, centre and inertia; true if the body is too light for any fluid.
-    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<Weighed> {
+    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<MassProperties> {
         let solid = Solid::from_pieces(setting.pieces());
         let solid = solid.or_else(|e| refused("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
