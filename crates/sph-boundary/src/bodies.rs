@@ -8,7 +8,6 @@ mod body;
 mod catenary;
 mod dynamics;
 mod freedom;
-mod line;
 mod mooring;
 mod prescribed;
 mod shape;
@@ -16,6 +15,6 @@ mod spatial_vector;
 
 pub use body::RigidBody;
 pub use freedom::{Freedom, Hold, HoldTurn, Holds};
-pub use line::Line;
+pub use mooring::Line;
 pub use prescribed::Prescribed;
 pub use shape::{NoSolid, Solid};

@@ -2,89 +2,76 @@
 
 use std::fmt::Display;
 
-use crate::geometry::polyline::WallEnd;
-
 /// Most pairs of edges or triangles that are held against each other: a second or two of work.
 pub(crate) const MOST_PAIRS: usize = 200_000_000;
 
-/// A refused wall, motion or kernel.
+/// Of walls, motions and kernels that may be refused.
+pub(crate) type Result<T, E = BoundaryError> = std::result::Result<T, E>;
+
+/// A refused wall, motion or kernel, in words.
 ///
 /// Messages name walls in backquotes; points, edges and triangles count from 0 as in the input, edge k of a triangle
 /// going from its corner k to the next. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-#[non_exhaustive]
-pub enum BoundaryError {
-    /// Walls that are or do what they cannot, in words.
-    #[error("{0}")]
-    Refused(String),
-    /// Two edges or triangles that cross.
-    #[error(
-        "{what} {number} of wall `{wall}` crosses {what} {other_number} of wall `{other}` near {at}"
-    )]
-    Crossing {
-        what: &'static str,
-        wall: String,
-        number: usize,
-        other: String,
-        other_number: usize,
-        at: Place,
-    },
-    /// Edges or triangles that lie across each other's boxes by the million.
-    #[error(
-        "from wall `{wall}` on, more than {MOST_PAIRS} pairs of {what} are so near each other that they must be \
-         compared: draw it with fewer long slanted {what} side by side"
-    )]
-    Tangled { what: &'static str, wall: String },
-    /// A particle whose support reaches past the end of an open wall.
-    #[error(
-        "the {end} end of wall `{wall}` at {at} is free and particle {particle} is {distance} \
-         m away, within the kernel radius {radius} m: close the wall or extend it"
-    )]
-    FreeEndInReach {
-        wall: String,
-        end: WallEnd,
-        at: Place,
-        particle: usize,
-        distance: f64,
-        radius: f64,
-    },
-    /// A motion with a number that is not finite or a table that does not ascend.
-    #[error(
-        "the motion of wall `{wall}` is not sound: all numbers must be finite, periods positive, an axis longer than \
-         zero, and the times of a table ascending"
-    )]
-    Motion { wall: String },
-    /// A number that must be positive and finite.
-    #[error("{name} must be positive and finite, got {value}")]
-    NotPositive { name: &'static str, value: f64 },
-    /// Breaks or pieces of the kernel that do not fit.
-    #[error("kernel is not a piecewise polynomial with a positive integral: {reason}")]
-    Kernel { reason: String },
-}
+#[error("{0}")]
+pub struct BoundaryError(pub(crate) String);
 
 impl BoundaryError {
+    /// A motion with a number that is not finite or a table that does not ascend.
+    pub fn motion(wall: impl Display) -> Self {
+        Self(format!(
+            "the motion of wall `{wall}` is not sound: all numbers must be finite, periods positive, an axis longer \
+             than zero, and the times of a table ascending"
+        ))
+    }
+
     /// Of a wall as a whole.
     pub(crate) fn unfit(wall: impl Display, why: impl Display) -> Self {
-        Self::Refused(format!("wall `{wall}` {why}"))
+        Self(format!("wall `{wall}` {why}"))
     }
 
     /// Of a point, an edge or a triangle of a wall.
     pub(crate) fn of_part(wall: impl Display, why: impl Display) -> Self {
-        Self::Refused(format!("wall `{wall}`: {why}"))
+        Self(format!("wall `{wall}`: {why}"))
     }
 
-    pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Self> {
+    /// Two edges or triangles that cross, each of a wall and with its number there.
+    pub(crate) fn crossing(what: &str, [a, b]: [(&str, usize); 2], at: impl Into<Place>) -> Self {
+        let ((wall, number), (other, other_number), at) = (a, b, at.into());
+        Self(format!(
+            "{what} {number} of wall `{wall}` crosses {what} {other_number} of wall `{other}` near {at}"
+        ))
+    }
+
+    /// Edges or triangles that lie across each other's boxes by the million.
+    pub(crate) fn tangled(what: &str, wall: &str) -> Self {
+        Self(format!(
+            "from wall `{wall}` on, more than {MOST_PAIRS} pairs of {what} are so near each other that they must be \
+             compared: draw it with fewer long slanted {what} side by side"
+        ))
+    }
+
+    /// Breaks or pieces of the kernel that do not fit.
+    pub(crate) fn kernel(reason: impl Display) -> Self {
+        Self(format!(
+            "kernel is not a piecewise polynomial with a positive integral: {reason}"
+        ))
+    }
+
+    pub(crate) fn not_positive(name: &str, value: f64) -> Self {
+        Self(format!("{name} must be positive and finite, got {value}"))
+    }
+
+    pub(crate) fn check_positive(name: &str, value: f64) -> Result<()> {
         match value > 0.0 && value.is_finite() {
             true => Ok(()),
-            false => Err(Self::NotPositive { name, value }),
+            false => Err(Self::not_positive(name, value)),
         }
     }
 }
 
 /// A position, m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Place(pub Box<[f64]>);
+pub(crate) struct Place(Box<[f64]>);
 
 impl<const D: usize> From<[f64; D]> for Place {
     fn from(at: [f64; D]) -> Self {

@@ -2,18 +2,14 @@
 
 pub(crate) mod cells;
 pub(crate) mod checks;
-pub(crate) mod drawing;
 pub(crate) mod junctions;
 pub(crate) mod lines;
 pub(crate) mod mesh;
 pub(crate) mod periodic;
-pub(crate) mod plane;
 pub(crate) mod plate;
 pub(crate) mod polyline;
 pub(crate) mod shells;
 pub(crate) mod surface;
-pub(crate) mod touching;
 pub(crate) mod vector;
 #[cfg(feature = "plugins")]
 pub(crate) mod walls;
-pub(crate) mod wedges;

@@ -9,11 +9,10 @@
 //! | finds elements near a point | [`Grid<2>`] | [`Grid<3>`] |
 //! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
-//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins
-//! are written once over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`]
-//! fulfil it. [`Mover`] is the contract of what moves a wall, whose [`RigidState`] is kept, rolled back and saved;
-//! [`RigidMotion`] moves one along [`Course`]s,
-//! [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
+//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins are written once
+//! over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`] fulfil it. [`Mover`] is the contract
+//! of what moves a wall, whose [`RigidState`] is kept, rolled back and saved; [`RigidMotion`] moves one along
+//! [`Course`]s, [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
 //! `plugins`, which is on unless it is turned off; without it the table above is left, for programs that want γ of a
 //! mesh and nothing else.
 //!
@@ -41,32 +40,29 @@ mod scale;
 #[cfg(feature = "plugins")]
 mod treatment;
 
-pub use error::{BoundaryError, Place};
-pub use geometry::drawing::Drawing;
+pub use error::BoundaryError;
+pub(crate) use error::Result;
 pub use geometry::mesh::{
-    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, Node, Opening,
-    SeenElement,
+    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, NearRows, Node,
+    Opening, SeenElement,
 };
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;
 pub use geometry::polyline::{FreeEnd, Polyline, WallEnd};
 pub use geometry::shells::{Gammas, Shells};
-pub use geometry::surface::Surface;
+pub use geometry::surface::{Drawing, Surface};
+pub use integrals::GammaSum;
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
-pub use integrals::sum::GammaSum;
-pub use rigid::bend::{Bend, Erodible};
-pub use rigid::motion::RigidMotion;
+pub use rigid::motion::{Bend, Erodible, RigidMotion};
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 
 #[cfg(feature = "plugins")]
 pub use crate::{
-    geometry::walls::wall_mesh::{Hindrance, WallMesh},
-    geometry::walls::{PlanarWalls, SpatialWalls, Walls},
-    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Touch},
+    geometry::walls::{Hindrance, PlanarWalls, SpatialWalls, View, WallMesh, Walls},
+    rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Spring, Touch},
     rigid::rigid_state::{Movement, RigidState},
-    rigid::spring::Spring,
     treatment::contract::{
         ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
         WallStates,

@@ -16,26 +16,13 @@ mod one_thread {
 
     impl<T: IntoIterator> IntoLoop for T {}
 
-    pub(crate) trait LoopOverSlice<T> {
-        fn par_iter(&self) -> std::slice::Iter<'_, T>;
-        fn par_sort_unstable(&mut self)
-        where
-            T: Ord;
-        fn par_sort_unstable_by_key<K: Ord>(&mut self, key: impl FnMut(&T) -> K);
+    pub(crate) trait SortedSlice {
+        fn par_sort_unstable(&mut self);
     }
 
-    impl<T> LoopOverSlice<T> for [T] {
-        fn par_iter(&self) -> std::slice::Iter<'_, T> {
-            self.iter()
-        }
-        fn par_sort_unstable(&mut self)
-        where
-            T: Ord,
-        {
+    impl<T: Ord> SortedSlice for [T] {
+        fn par_sort_unstable(&mut self) {
             self.sort_unstable();
-        }
-        fn par_sort_unstable_by_key<K: Ord>(&mut self, key: impl FnMut(&T) -> K) {
-            self.sort_unstable_by_key(key);
         }
     }
 }

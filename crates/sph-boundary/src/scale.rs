@@ -4,6 +4,5 @@ pub(crate) mod flat;
 pub(crate) mod map;
 #[cfg(test)]
 mod normalised;
-pub(crate) mod plane;
 pub(crate) mod spline;
 pub(crate) mod walls;

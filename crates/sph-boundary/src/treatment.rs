@@ -5,9 +5,7 @@ pub(crate) mod contract;
 pub(crate) mod dummy;
 pub(crate) mod elements;
 pub(crate) mod free_end_density;
-pub(crate) mod groups;
 pub(crate) mod impact;
-pub(crate) mod kernel_reach;
 pub(crate) mod moving;
 pub(crate) mod near;
 pub(crate) mod outline;
@@ -17,6 +15,8 @@ pub(crate) mod shepard;
 pub(crate) mod symmetric;
 pub(crate) mod touching;
 pub(crate) mod usaw;
+
+pub(crate) type Staged = Result<(), sph_core::StepError>;
 
 /// A failure of the wall stages.
 pub(crate) fn stage_error(reason: impl ToString) -> sph_core::StepError {

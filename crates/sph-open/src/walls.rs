@@ -113,7 +113,7 @@ impl<const D: usize> WallMotion<D> for OpenWalls<D> {
         if !back {
             let wall = faces.faces.first().map(|f| f.name.clone());
             let wall = wall.unwrap_or_default();
-            return Err(BoundaryError::Motion { wall });
+            return Err(BoundaryError::motion(wall));
         }
         walls.passed = faces.passed(walls);
         drop(faces);

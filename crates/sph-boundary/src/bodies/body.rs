@@ -5,8 +5,7 @@ use sph_core::{Vect, plugin};
 
 use crate::bodies::dynamics::Dynamics;
 use crate::bodies::freedom::{Freedom, Holds};
-use crate::bodies::line::Line;
-use crate::bodies::mooring::Mooring;
+use crate::bodies::mooring::{Line, Mooring};
 use crate::bodies::prescribed::{self, Prescribed};
 use crate::bodies::shape::{Solid, layer, winding};
 use crate::bodies::spatial_vector::padded;
@@ -16,7 +15,6 @@ use crate::{Drawing, Load, Mover, MoverEntry, MoverRefusal, MoverSetting, RigidS
 /// Least density of a body over that of the lightest fluid. Lighter ones are stable, but a blow of one particle of the
 /// fluid throws them: it has several times their mass.
 const LIGHTEST: f64 = 0.02;
-
 /// Speed that a contact stops within half a spacing, over the largest speed of sound.
 const FASTEST: f64 = 10.0;
 
@@ -82,13 +80,10 @@ pub struct RigidBody {
     settled: Option<(Dynamics, Touch)>,
 }
 
-type MoverResult<T> = Result<T, MoverRefusal>;
+type Checked<T> = Result<T, MoverRefusal>;
+type MassProperties = (f64, Vector3<f64>, Matrix3<f64>, bool);
 
-/// A vector of as many numbers as there are dimensions.
-fn vector<const D: usize>(
-    key: &str,
-    given: &Option<Vec<f64>>,
-) -> MoverResult<Option<Vector3<f64>>> {
+fn vector<const D: usize>(key: &str, given: &Option<Vec<f64>>) -> Checked<Option<Vector3<f64>>> {
     match given {
         None => Ok(None),
         Some(given) if given.len() == D => Ok(Some(padded(given))),
@@ -96,20 +91,17 @@ fn vector<const D: usize>(
     }
 }
 
-fn refused<T>(key: &str, why: impl Into<String>) -> MoverResult<T> {
+fn refused<T>(key: &str, why: impl Into<String>) -> Checked<T> {
     Err(MoverRefusal::at_key(key, why))
 }
 
-fn wrong_count<T>(key: &str, found: usize, expected: &str) -> MoverResult<T> {
+fn wrong_count<T>(key: &str, found: usize, expected: &str) -> Checked<T> {
     refused(key, format!("{found} numbers, {expected} are expected"))
 }
 
 impl RigidBody {
-    /// Mass, centre and inertia.
-    fn weighed<const D: usize>(
-        &self,
-        setting: &MoverSetting<'_, D>,
-    ) -> MoverResult<MassProperties> {
+    /// Mass, centre and inertia; true if the body is too light for any fluid.
+    fn weighed<const D: usize>(&self, setting: &MoverSetting<'_, D>) -> Checked<MassProperties> {
         let solid = Solid::from_pieces(setting.pieces());
         let solid = solid.or_else(|e| refused("", e.to_string()))?;
         let mass = match (self.mass, self.density) {
@@ -141,15 +133,10 @@ impl RigidBody {
             }
             (None, None) => solid.inertia * density,
         };
-        Ok(MassProperties {
-            mass,
-            centre: centre.unwrap_or(solid.centre),
-            inertia,
-            dry,
-        })
+        Ok((mass, centre.unwrap_or(solid.centre), inertia, dry))
     }
 
-    fn freedoms<const D: usize>(&self) -> MoverResult<[bool; 6]> {
+    fn freedoms<const D: usize>(&self) -> Checked<[bool; 6]> {
         let there = Freedom::in_dimension(D);
         let names: Vec<&str> = there.iter().map(|f| f.name()).collect();
         let names = names.join(", ");
@@ -215,7 +202,7 @@ fn corners(drawing: &Drawing) -> Vec<Vector3<f64>> {
 }
 
 /// Refuses a body that holds a corner of another wall, or has one in it.
-fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<()> {
+fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> Checked<()> {
     let own = || setting.pieces();
     for other in setting.others() {
         let holds = corners(other).into_iter().any(|x| winding(own(), x) > 0.75);
@@ -229,16 +216,7 @@ fn check_separate<const D: usize>(setting: &MoverSetting<'_, D>) -> MoverResult<
     Ok(())
 }
 
-/// Mass, centre and inertia of a body.
-struct MassProperties {
-    mass: f64,
-    centre: Vector3<f64>,
-    inertia: Matrix3<f64>,
-    dry: bool,
-}
-
-/// The inertia that a scene gives.
-fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
+fn tensor<const D: usize>(given: &[f64]) -> Checked<Matrix3<f64>> {
     let tensor = match (D, given) {
         (2, [about]) => Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, *about)),
         (3, [x, y, z]) => Matrix3::from_diagonal(&Vector3::new(*x, *y, *z)),
@@ -263,19 +241,18 @@ fn tensor<const D: usize>(given: &[f64]) -> MoverResult<Matrix3<f64>> {
 }
 
 impl<const D: usize> Mover<D> for RigidBody {
-    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> MoverResult<()> {
+    fn prepare(&mut self, setting: &MoverSetting<'_, D>) -> Checked<()> {
         if !setting.flush {
             let why = "half a row of fluid clings to these walls and would be carried along: give `[walls.usaw]` the key \
                        `vertices = false`";
             return refused("", why);
         }
-        let weighed = self.weighed(setting)?;
+        let (mass, centre, inertia, dry) = self.weighed(setting)?;
         check_separate(setting)?;
         let free = self.freedoms::<D>()?;
         let lines = self.line.iter().enumerate();
         let lines = lines.map(|(k, line)| Mooring::new(line, k, setting));
         let lines: Vec<_> = lines.collect::<Result<_, _>>()?;
-        let centre = weighed.centre;
         let corners = setting.pieces().flat_map(corners);
         let far = corners.map(|x| (x - centre).norm());
         let bounds = [far.fold(0.0, f64::max), setting.sound_speed];
@@ -287,14 +264,14 @@ impl<const D: usize> Mover<D> for RigidBody {
         }
         let [_, heaviest] = setting.densities;
         let pieces = || setting.pieces();
-        let layer = layer(pieces(), weighed.centre, heaviest, setting.smoothing_length);
+        let layer = layer(pieces(), centre, heaviest, setting.smoothing_length);
         // The trace of Σ S n nᵀ is the surface.
         let surface =
             (layer[(0, 0)] + layer[(1, 1)] + layer[(2, 2)]) / (heaviest * setting.smoothing_length);
         let dynamics = Dynamics {
-            mass: weighed.mass,
-            centre: weighed.centre,
-            inertia: weighed.inertia,
+            mass,
+            centre,
+            inertia,
             layer,
             free,
             holds: self.hold.all().collect(),
@@ -302,7 +279,7 @@ impl<const D: usize> Mover<D> for RigidBody {
             start: self.start,
             prescribed: self.prescribed.clone(),
         };
-        let touch = self.touch_of(setting, &dynamics, (surface, weighed.dry));
+        let touch = self.touch_of(setting, &dynamics, (surface, dry));
         self.settled = Some((dynamics, touch));
         Ok(())
     }
@@ -312,8 +289,8 @@ impl<const D: usize> Mover<D> for RigidBody {
     }
 
     fn pulls(&self, now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
-        let settled = self.settled.iter();
-        settled.flat_map(|(d, _)| d.pulls(now)).collect()
+        let settled = self.settled.as_ref();
+        settled.map_or(Vec::new(), |(dynamics, _)| dynamics.pulls(now))
     }
 
     fn start(&self) -> RigidState<D> {

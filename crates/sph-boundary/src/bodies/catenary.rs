@@ -28,7 +28,6 @@ pub(crate) struct Catenary {
     pub bed: bool,
 }
 
-/// Shape and tension of a hanging line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hang {
     /// Horizontal tension H, N.
@@ -58,7 +57,6 @@ impl Catenary {
         if self.bed { below.max(0.0) } else { below }
     }
 
-    /// Length that lies on the bed, m.
     fn length_on_bed(&self, up: f64) -> f64 {
         match self.bed {
             true => (self.length - up / self.weight).max(0.0),
@@ -202,7 +200,6 @@ impl Catenary {
     }
 }
 
-/// The solution of a symmetric system of two equations.
 fn solved([[a, b], [_, d]]: &[[f64; 2]; 2], [r, s]: [f64; 2]) -> [f64; 2] {
     let determinant = a * d - b * b;
     [(d * r - b * s) / determinant, (a * s - b * r) / determinant]

@@ -59,7 +59,8 @@ impl Dynamics {
         let moved = padded(now.velocity.as_slice()) + along * dt;
         state.velocity = Vect::from_fn(|k, _| moved[k]);
         // Weight alone is a constant force, of which the mean velocity makes the exact parabola.
-        let flies = load.is_weight() && self.holds.is_empty() && self.lines.is_empty();
+        let weight = [load.force, load.contact_force] == [Vect::<D>::zeros(); 2];
+        let flies = weight && self.holds.is_empty() && self.lines.is_empty();
         let share = if flies { 0.5 } else { 1.0 };
         let mean = now.velocity.lerp(&state.velocity, share);
         state.pose.translation = (Vect::from(now.pose.translation) + mean * dt).into();
@@ -96,13 +97,11 @@ impl Dynamics {
         Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(column))
     }
 
-    /// Inertia about the centre, and mass and inertia together, of the turned body.
     fn inertia_at(&self, turn: &Matrix3<f64>) -> (Matrix3<f64>, Matrix6<f64>) {
         let inertia = turn * self.inertia * turn.transpose();
         (inertia, blocks(Matrix3::identity() * self.mass, inertia))
     }
 
-    /// Force and moment about the centre.
     fn force<const D: usize>(&self, now: &RigidState<D>, load: &Load<D>) -> Vector6<f64> {
         let place = padded(now.place().as_slice());
         let [fluid, contact] = [&load.force, &load.contact_force].map(|f| padded(f.as_slice()));
@@ -156,18 +155,16 @@ impl Dynamics {
     }
 
     /// Force of every line on the body, and its tension at the anchor, in a state.
-    pub fn pulls<const D: usize>(
-        &self,
-        now: &RigidState<D>,
-    ) -> impl Iterator<Item = (Vect<D>, f64)> {
+    pub fn pulls<const D: usize>(&self, now: &RigidState<D>) -> Vec<(Vect<D>, f64)> {
         let (turn, shift) = (rotation(now), padded(&now.pose.translation));
         let velocity = six(padded(now.velocity.as_slice()), now.angular_velocity.into());
-        self.lines.iter().map(move |line| {
+        let of_line = |line| {
             let pull = self.pull(line, &turn, &shift, &velocity);
             pull.map_or((Vect::zeros(), 0.0), |pull| {
                 (Vect::from_fn(|k, _| pull.force[k]), pull.anchor)
             })
-        })
+        };
+        self.lines.iter().map(of_line).collect()
     }
 
     /// The mean angular velocity over a step at whose end the angular momentum is L, and that at its end: the inertia

@@ -63,21 +63,19 @@ pub(crate) fn check<const D: usize>(
         let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut last = f64::NEG_INFINITY;
         for (n, row) in one.course.iter().enumerate() {
+            let refused_row = |why: String| refused("course", format!("row {n} {why}"));
             let found = row.len();
             if found != columns {
-                let why = format!("row {n} has {found} numbers, {columns} are expected");
-                return refused("course", why);
+                return refused_row(format!("has {found} numbers, {columns} are expected"));
             }
             if !row.iter().all(|x| x.is_finite()) {
-                let why = format!("row {n} has a number that is not finite");
-                return refused("course", why);
+                return refused_row("has a number that is not finite".into());
             }
             let speed = size(&row[1..=D]) + radius * size(&row[D + 1..]);
             if speed >= sound {
-                let why = format!(
-                    "row {n} moves the body with {speed:.3e} m/s, faster than sound, {sound:.3} m/s"
-                );
-                return refused("course", why);
+                return refused_row(format!(
+                    "moves the body with {speed:.3e} m/s, faster than sound, {sound:.3} m/s"
+                ));
             }
             if row[0] <= last {
                 let why = format!("the time of row {n} is not after that of the row before it");
@@ -98,7 +96,6 @@ pub(crate) fn check<const D: usize>(
 pub(crate) type ImposedMotion = [Vector6<f64>; 2];
 
 impl Prescribed {
-    /// True if a step from a time is one of its own.
     pub(crate) fn holds(&self, time: f64) -> bool {
         self.from <= time && time < self.to
     }
@@ -185,45 +182,28 @@ mod tests {
         };
         let row = [0.0; 4];
         assert_eq!(why(&[one(0.5, 1.0, &[]), one(1.0, 2.0, &[])]), "");
-        for (all, expected) in [
-            (
-                vec![one(0.4, 1.0, &[])],
-                "prescribed[0].from: 0.4 s is before 0.5 s",
-            ),
-            (
-                vec![one(1.0, 2.0, &[]), one(1.5, 3.0, &[])],
-                "prescribed[1].from: 1.5 s is before 2 s",
-            ),
-            (
-                vec![one(1.0, 1.0, &[])],
-                "prescribed[0].to: 1 s is not after 1 s",
-            ),
-            (
-                vec![one(1.0, 2.0, &[&row[..3]])],
-                "prescribed[0].course: row 0 has 3 numbers, 4",
-            ),
-            (
-                vec![one(f64::NAN, 1.0, &[])],
-                "prescribed[0].from: NaN s is no time",
-            ),
-            (
-                vec![one(1.0, f64::INFINITY, &[])],
-                "prescribed[0].to: inf s is no time",
-            ),
-            (
-                vec![one(1.0, 2.0, &[&row, &[3.0, 0.0, f64::NAN, 0.0]])],
-                "prescribed[0].course: row 1 has a number that is not finite",
-            ),
-            (
-                vec![one(1.0, 2.0, &[&row, &row])],
-                "prescribed[0].course: the time of row 1",
-            ),
-            (
-                vec![one(1.0, 2.0, &[&row])],
-                "prescribed[0].course: it does not cover 1 to 2 s",
-            ),
-        ] {
-            assert!(why(&all).starts_with(expected), "{}", why(&all));
-        }
+        let refused = |all: &[Prescribed], expected: &str| {
+            assert!(why(all).starts_with(expected), "{}", why(all));
+        };
+        let before = "prescribed[0].from: 0.4 s is before 0.5 s";
+        refused(&[one(0.4, 1.0, &[])], before);
+        let before = "prescribed[1].from: 1.5 s is before 2 s";
+        refused(&[one(1.0, 2.0, &[]), one(1.5, 3.0, &[])], before);
+        let time = |from: f64, to: f64, expected: &str| refused(&[one(from, to, &[])], expected);
+        time(1.0, 1.0, "prescribed[0].to: 1 s is not after 1 s");
+        time(f64::NAN, 1.0, "prescribed[0].from: NaN s is no time");
+        time(1.0, f64::INFINITY, "prescribed[0].to: inf s is no time");
+        let course = |rows: &[&[f64]], expected: &str| {
+            let expected = format!("prescribed[0].course: {expected}");
+            refused(&[one(1.0, 2.0, rows)], &expected);
+        };
+        course(&[&row[..3]], "row 0 has 3 numbers, 4");
+        let not_finite = [3.0, 0.0, f64::NAN, 0.0];
+        course(
+            &[&row, &not_finite],
+            "row 1 has a number that is not finite",
+        );
+        course(&[&row, &row], "the time of row 1");
+        course(&[&row], "it does not cover 1 to 2 s");
     }
 }

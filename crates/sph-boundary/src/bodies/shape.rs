@@ -43,7 +43,6 @@ struct Moments {
 }
 
 impl Moments {
-    /// Adds the triangle or tetrahedron between the origin and these corners.
     fn add(&mut self, corners: &[Vector3<f64>], volume: f64) {
         let n = corners.len() as f64;
         self.volume += volume;

@@ -4,12 +4,10 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::RigidState;
 
-/// A vector of three and one of three.
 pub(crate) fn six(along: Vector3<f64>, about: Vector3<f64>) -> Vector6<f64> {
     Vector6::new(along.x, along.y, along.z, about.x, about.y, about.z)
 }
 
-/// The part along the axes, and that about them.
 pub(crate) fn parts(v: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
     (
         Vector3::new(v[0], v[1], v[2]),
@@ -17,7 +15,6 @@ pub(crate) fn parts(v: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
     )
 }
 
-/// Two matrices along the diagonal.
 pub(crate) fn blocks(along: Matrix3<f64>, about: Matrix3<f64>) -> Matrix6<f64> {
     let mut whole = Matrix6::zeros();
     whole.fixed_view_mut::<3, 3>(0, 0).copy_from(&along);
@@ -39,7 +36,6 @@ pub(crate) fn solve(mut a: Matrix6<f64>, mut b: Vector6<f64>, free: [bool; 6]) -
     }
 }
 
-/// D numbers, padded by zeros.
 pub(crate) fn padded(v: &[f64]) -> Vector3<f64> {
     let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
     Vector3::new(at(0), at(1), at(2))

@@ -3,7 +3,7 @@
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
 //! * `closest`, `grid`, `near`: elements near a place;
-//! * `sides`, `inside`: on which side of the walls a place is.
+//! * `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
@@ -13,17 +13,14 @@ mod grid;
 mod inside;
 mod motion;
 mod near;
-mod near_element;
-mod sides;
 
 pub(crate) use closest::angle;
 pub use closest::{Closest, Feature, SeenElement};
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
-pub use grid::Grid;
+pub(crate) use grid::Sides;
+pub use grid::{Grid, NearElement, NearRows};
 pub(crate) use inside::{RayQueries, SAME_DISTANCE, SAME_HEIGHT};
 pub(crate) use motion::{ElementMeasures, bed_of};
-pub use near_element::NearElement;
-pub(crate) use sides::Sides;
 
 /// Points closer than this part of the spacing are the same place, and so much may a point lie off
 /// an edge or a plane and still be on it.

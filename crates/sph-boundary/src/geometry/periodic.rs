@@ -1,6 +1,6 @@
 //! A box whose opposite sides may be the same place.
 
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, Result};
 use crate::geometry::cells::product;
 use crate::geometry::vector::sub;
 
@@ -44,7 +44,7 @@ impl<const D: usize> PeriodicBox<D> {
     }
 
     /// Refuses a periodic axis without extent.
-    pub(crate) fn check(&self) -> Result<(), BoundaryError> {
+    pub(crate) fn check(&self) -> Result<()> {
         let mut periodic = (0..D).filter(|k| self.periodic[*k]);
         periodic.try_for_each(|k| BoundaryError::check_positive("period", self.periods()[k]))
     }

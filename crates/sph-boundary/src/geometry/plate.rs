@@ -1,33 +1,29 @@
 //! The outline of a thin plate.
 
-use crate::error::BoundaryError;
 use crate::geometry::checks::check_points;
-use crate::geometry::polyline::Polyline;
+use crate::{BoundaryError, Polyline, Result};
 
 /// Sharpest fold that can be mitred: 1 + cos(turn) must exceed this (a turn of about 162°).
 const MITRE_LIMIT: f64 = 0.05;
 
 /// The closed outline of a plate with fluid on both sides: two opposite faces and two caps.
 ///
-/// `points` is the middle line and `thickness` ≥ 0 is in metres. Corners are mitred: the faces pass
-/// at ± thickness/2 · (n₁ + n₂)/(1 + n₁·n₂) from a corner between edges of normals n₁ and n₂. The
-/// outline runs clockwise around the plate. At zero thickness it goes forth and back over the same
-/// points: there is one vertex per side along the plate (θ = 1/2 on a straight stretch), and one at
-/// each end with fluid all around (θ = 1).
+/// `points` is the middle line and `thickness` ≥ 0 is in metres. Corners are mitred: the faces pass at ± thickness/2 ·
+/// (n₁ + n₂)/(1 + n₁·n₂) from a corner between edges of normals n₁ and n₂. The outline runs clockwise around the plate.
+/// At zero thickness it goes forth and back over the same points: there is one vertex per side along the plate (θ = 1/2
+/// on a straight stretch), and one at each end with fluid all around (θ = 1).
 ///
 /// # Errors
-/// Fewer than two points, coincident or non-finite points, a negative thickness, or a fold too
-/// sharp to be mitred.
+/// Fewer than two points, coincident or non-finite points, a negative thickness, or a fold too sharp to be mitred.
 pub fn thin_plate(
     name: impl Into<String>,
     points: &[[f64; 2]],
     thickness: f64,
-) -> Result<Polyline, BoundaryError> {
+) -> Result<Polyline> {
     let middle = Polyline::open(name, points.to_vec());
     check_points(&middle)?;
     if !(thickness >= 0.0 && thickness.is_finite()) {
-        let (name, value) = ("plate thickness", thickness);
-        return Err(BoundaryError::NotPositive { name, value });
+        return Err(BoundaryError::not_positive("plate thickness", thickness));
     }
     let last = points.len() - 1;
     if thickness == 0.0 {
@@ -35,7 +31,12 @@ pub fn thin_plate(
         let around = points.iter().copied().chain(back);
         return Ok(Polyline::closed(middle.name, around.collect()));
     }
-    let normals: Vec<[f64; 2]> = middle.edges().map(left_normal).collect();
+    let left = |[a, b]: [[f64; 2]; 2]| {
+        let (x, y) = (b[0] - a[0], b[1] - a[1]);
+        let length = x.hypot(y);
+        [-y / length, x / length]
+    };
+    let normals: Vec<[f64; 2]> = middle.edges().map(left).collect();
     let mut outline = Vec::with_capacity(2 * points.len());
     let mut other_side = Vec::with_capacity(points.len());
     for (i, &[x, y]) in points.iter().enumerate() {
@@ -43,7 +44,7 @@ pub fn thin_plate(
         let after = normals[i.min(last - 1)];
         let bend = 1.0 + before[0] * after[0] + before[1] * after[1];
         if bend < MITRE_LIMIT {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "plate `{}` turns too sharply at point {i} to be given a thickness",
                 middle.name
             )));
@@ -54,13 +55,6 @@ pub fn thin_plate(
     }
     outline.extend(other_side.into_iter().rev());
     Ok(Polyline::closed(middle.name, outline))
-}
-
-/// Unit normal on the left of an edge.
-fn left_normal([a, b]: [[f64; 2]; 2]) -> [f64; 2] {
-    let (x, y) = (b[0] - a[0], b[1] - a[1]);
-    let length = x.hypot(y);
-    [-y / length, x / length]
 }
 
 #[cfg(test)]

@@ -70,8 +70,7 @@ impl Polyline {
         reversed
     }
 
-    /// Area ½ Σ x_i y_{i+1} − x_{i+1} y_i inside the closed polyline, positive when
-    /// counter-clockwise, m².
+    /// Area ½ Σ x_i y_{i+1} − x_{i+1} y_i inside the closed polyline, positive when counter-clockwise, m².
     pub fn signed_area(&self) -> f64 {
         let Some(&[x0, y0]) = self.points.first() else {
             return 0.0;

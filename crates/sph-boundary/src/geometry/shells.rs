@@ -91,12 +91,10 @@ pub struct ShellSums {
 }
 
 impl ShellSums {
-    /// For another point.
     pub fn clear(&mut self) {
         self.sums.clear();
     }
 
-    /// Adds Γ of an element or a face.
     #[inline(always)]
     pub fn add(&mut self, shell: u32, gamma: f64) {
         if shell == 0 {

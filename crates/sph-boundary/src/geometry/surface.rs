@@ -1,13 +1,11 @@
 //! From surfaces to a mesh of triangles.
 //!
 //! * `places`, `drawn`, `crossing`: the input is welded and checked;
-//! * `patches`, `removal`, `wetted`: planar pieces, without the places where walls touch face to face and without those
+//! * `patches`, `wetted`: planar pieces, without the places where walls touch face to face and without those
 //!   that bound no fluid;
-//! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on
-//!   both sides of every edge;
-//! * `solid_angle`, `openings`: what a node stands for, and where the walls end;
-//! * `bed_faces`: faces that a bed lifts;
-//! * `outside`: which side is the fluid's.
+//! * `edges`, `lattice`, `fill`: the pieces cut into triangles of about the spacing, alike on both sides of every edge;
+//! * `openings`: what a node stands for, and where the walls end;
+//! * `bed_faces`: faces that a bed lifts.
 
 mod bed_faces;
 mod build;
@@ -17,14 +15,11 @@ mod edges;
 mod fill;
 mod lattice;
 mod openings;
-mod outside;
 mod patches;
 mod places;
-mod removal;
-mod solid_angle;
 mod wetted;
 
-pub use drawn::Surface;
+pub use drawn::{Drawing, Surface};
 
 /// A box with the fluid outside.
 #[cfg(test)]

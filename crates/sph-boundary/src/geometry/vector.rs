@@ -1,8 +1,7 @@
-//! Vectors of D numbers.
+//! Vectors of D numbers, and planes.
 
 pub(crate) use sph_core::bounds;
 
-/// A place in space.
 pub(crate) type Point = [f64; 3];
 
 #[inline(always)]
@@ -67,10 +66,7 @@ pub(crate) fn perp<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
 
 /// The part of the way along the segment between two points at which it is nearest to another one, and the way from
 /// there to that one.
-pub(crate) fn foot_on_segment<const D: usize>(
-    p: [f64; D],
-    [a, b]: [[f64; D]; 2],
-) -> (f64, [f64; D]) {
+pub(crate) fn foot_on_edge<const D: usize>(p: [f64; D], [a, b]: [[f64; D]; 2]) -> (f64, [f64; D]) {
     let (t, to) = (sub(b, a), sub(p, a));
     let length2 = dot(t, t);
     let part = if length2 > 0.0 {
@@ -81,7 +77,47 @@ pub(crate) fn foot_on_segment<const D: usize>(
     (part, along(to, -part, t))
 }
 
-/// Distance of a point from the segment between two others.
 pub(crate) fn distance_to_segment<const D: usize>(p: [f64; D], ends: [[f64; D]; 2]) -> f64 {
-    norm(foot_on_segment(p, ends).1)
+    norm(foot_on_edge(p, ends).1)
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    origin: Point,
+    axes: [Point; 2],
+}
+
+impl Plane {
+    /// The plane through a place, m, across a unit normal.
+    pub fn new(origin: Point, normal: Point) -> Self {
+        // The coordinate axis that is farthest from the normal.
+        let mut axis = [0.0; 3];
+        let flattest = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
+        axis[flattest.unwrap_or(0)] = 1.0;
+        Self::along(along(axis, -dot(axis, normal), normal), origin, normal)
+    }
+
+    /// The same with the first axis along a direction in it.
+    pub fn along(direction: Point, origin: Point, normal: Point) -> Self {
+        let first = unit(direction);
+        let axes = [first, cross(normal, first)];
+        Self { origin, axes }
+    }
+
+    /// Coordinates of the foot of the perpendicular from a point, m.
+    #[inline]
+    pub fn foot(&self, point: Point) -> [f64; 2] {
+        self.part(sub(point, self.origin))
+    }
+
+    /// The part of a vector in the plane, by its axes.
+    #[inline]
+    pub fn part(&self, vector: Point) -> [f64; 2] {
+        [dot(vector, self.axes[0]), dot(vector, self.axes[1])]
+    }
+
+    /// The place with some coordinates, m.
+    pub fn place(&self, x: [f64; 2]) -> Point {
+        along(along(self.origin, x[0], self.axes[0]), x[1], self.axes[1])
+    }
 }

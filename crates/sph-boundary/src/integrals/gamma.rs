@@ -1,11 +1,6 @@
 //! γ and ∇γ of straight wall segments in closed form.
 
-mod batch;
 mod primitives;
 mod renormalisation;
-mod ring;
-mod segment;
 
-pub use batch::SegmentBatch;
-pub use renormalisation::Renormalisation2d;
-pub use segment::{Contact, SegmentIntegral};
+pub use renormalisation::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};

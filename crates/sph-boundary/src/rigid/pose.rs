@@ -29,14 +29,6 @@ fn identity<const D: usize>() -> [[f64; D]; D] {
 }
 
 impl<const D: usize> Pose<D> {
-    /// A displacement without rotation, m.
-    pub fn translated(translation: [f64; D]) -> Self {
-        Self {
-            translation,
-            ..Self::default()
-        }
-    }
-
     /// A rotation by `angle` rad about a unit axis through `centre`, right-handed; anticlockwise in the plane.
     ///
     /// R = cos φ I + sin φ E + (1 − cos φ) e eᵀ, E v = e × v (Rodrigues).
@@ -111,7 +103,6 @@ mod tests {
         };
         let [x, y] = pose.map()([3.0, 0.0]);
         assert!((x - 3.0).abs() < 1e-15 && (y - 1.0).abs() < 1e-15);
-        assert_eq!(Pose::translated([0.1, 0.2]).map()([0.0, 0.0]), [0.1, 0.2]);
     }
 
     #[test]

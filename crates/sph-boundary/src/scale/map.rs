@@ -7,11 +7,9 @@ use sph_core::{Vect, bounds};
 use sph_kernels::Sampler;
 use sph_neighbours::Domain;
 
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::scale::flat::unrolled;
-use crate::scale::plane::{REACH, fade};
+use crate::scale::flat::{REACH, fade, unrolled};
 use crate::scale::spline::{Grid, interpolate, value};
-use crate::{BoundaryError, SeenElement};
+use crate::{BoundaryError, Result, SeenElement, WallMesh};
 
 /// Nodes of the grid per smoothing length.
 const NODES: f64 = 4.0;
@@ -23,11 +21,9 @@ const SAMPLES: usize = 4;
 /// Share of ln s + ln ∫ s w that a sweep takes off. Its error falls by 1 − ω (1 + λ), λ from 0 (rough) to 1 (smooth): to a
 /// third at most.
 const RELAXATION: f64 = 2.0 / 3.0;
-/// Sweeps at most.
 const SWEEPS: usize = 40;
 /// Largest change of ln s after which no further sweep is made.
 const TOLERANCE: f64 = 1e-5;
-/// Nodes at most.
 const MOST_NODES: usize = 20_000_000;
 
 /// ln s of walls less that of their flat faces, as a cubic spline.
@@ -43,7 +39,6 @@ pub(crate) struct ScaleMap<const D: usize> {
     walls: Vec<u32>,
 }
 
-/// Input of a map.
 pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     /// The walls, where they were drawn.
     pub mesh: &'a M,
@@ -55,7 +50,6 @@ pub(crate) struct Mapping<'a, const D: usize, M: WallMesh<D>> {
     pub over_flat: &'a (dyn Fn(&Vect<D>) -> f64 + Sync),
     pub kernel: &'a dyn Sampler,
     pub domain: &'a Domain<D>,
-    /// Name of the walls, for messages.
     pub wall: &'a str,
 }
 
@@ -89,9 +83,8 @@ impl<const D: usize> ScaleMap<D> {
     ///
     /// # Errors
     /// If the grid would have too many nodes.
-    pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self, BoundaryError> {
-        let h = of.kernel.smoothing_length();
-        let step = h / NODES;
+    pub fn new<M: WallMesh<D>>(of: &Mapping<'_, D, M>) -> Result<Self> {
+        let (h, step) = (of.kernel.smoothing_length(), of.step());
         let nodes = of.mesh.places();
         let curved = || {
             let elements = of.mesh.elements().iter().zip(of.curved);
@@ -159,14 +152,12 @@ impl<const D: usize> ScaleMap<D> {
         Some((value, gradient, wall))
     }
 
-    /// The middle of its grid, m.
     pub fn middle(&self) -> Vect<D> {
         let half = |k: usize| 0.5 * (self.grid.nodes[k] - 1) as f64 * self.grid.step;
         self.grid.low + Vect::from_fn(|k, _| half(k))
     }
 }
 
-/// Data of a node.
 struct NodeKind<const D: usize> {
     /// Distance from the walls, m, negative behind them.
     height: f64,
@@ -190,15 +181,14 @@ impl<const D: usize> Cells<D> {
             let x = grid.place(n);
             let outside = (low - x).sup(&(x - high)).sup(&Vect::zeros());
             match outside.norm() < REACH * h {
-                true => near_node(&x, grid.step, of, several),
-                false => far_node(&x, grid.step, of),
+                true => of.near_node(&x, several),
+                false => of.far_node(&x),
             }
         };
         let kinds: Vec<NodeKind<D>> = nodes.map(kind).collect();
-        let place = |n: usize| grid.place(n);
         let flat = (0..grid.len()).into_par_iter().with_min_len(1024);
         let mut cells = Cells {
-            flat: flat.map(|n| (of.flat)(&place(n))).collect(),
+            flat: flat.map(|n| (of.flat)(&grid.place(n))).collect(),
             whole: Vec::with_capacity(kinds.len()),
             first_lump: vec![0],
             lumps: Vec::new(),
@@ -287,95 +277,86 @@ fn rows<const D: usize>(grid: &Grid<D>, kernel: &dyn Sampler) -> Vec<(isize, Vec
     (0..side.pow(D as u32 - 1)).filter_map(one).collect()
 }
 
-/// A node too far from curved elements to have a value: of the flat faces alone.
-fn far_node<const D: usize, M: WallMesh<D>>(
-    x: &Vect<D>,
-    step: f64,
-    of: &Mapping<'_, D, M>,
-) -> NodeKind<D> {
-    let height = (of.over_flat)(x);
-    NodeKind {
-        height,
-        from_curved: f64::INFINITY,
-        lumps: lumps(x, step, height, |at| (of.over_flat)(&(x + at))),
-        nearest: 0,
+impl<const D: usize, M: WallMesh<D>> Mapping<'_, D, M> {
+    /// Distance of nodes, m.
+    fn step(&self) -> f64 {
+        self.kernel.smoothing_length() / NODES
     }
-}
 
-/// A node near curved elements.
-fn near_node<const D: usize, M: WallMesh<D>>(
-    x: &Vect<D>,
-    step: f64,
-    of: &Mapping<'_, D, M>,
-    several: bool,
-) -> NodeKind<D> {
-    let reach = (REACH + 0.5) * of.kernel.smoothing_length();
-    // The mesh takes places in the box.
-    let place = of.domain.wrapped(*x);
-    let near = of.mesh.near(&place, reach);
-    let curved = near.iter().filter(|n| of.curved[n.index()]);
-    let walls: Vec<usize> = match several {
-        true => curved.clone().map(|n| of.mesh.wall_of(*n)).collect(),
-        false => Vec::new(),
-    };
-    let curved = of.mesh.seen(&place, curved);
-    let distance = |k: usize| {
-        let only = std::slice::from_ref(&curved[k]);
-        SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
-    };
-    let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-    let seen = of.mesh.seen(&place, &near);
-    let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
-    let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
-    let height = height.unwrap_or_else(|| match of.mesh.contains(&place) {
-        true => f64::INFINITY,
-        false => f64::NEG_INFINITY,
-    });
-    NodeKind {
-        height,
-        from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
-        lumps: lumps(x, step, height, |at| {
-            SeenElement::signed_distance(&seen, (*at).into(), reach).unwrap_or(0.0)
-        }),
-        nearest: nearest.map_or(0, |k| walls[k] as u32),
-    }
-}
-
-/// The lumps of the cell around a node at a height over the walls, if they cut it; `height_at` is that of a place relative to
-/// the node, m.
-fn lumps<const D: usize>(
-    x: &Vect<D>,
-    step: f64,
-    height: f64,
-    height_at: impl Fn(&Vect<D>) -> f64,
-) -> Vec<Lump<D>> {
-    let mut lumps = Vec::new();
-    if height.abs() > half_diagonal::<D>(step) {
-        return lumps;
-    }
-    let size = step / (LUMPS * SAMPLES) as f64;
-    let place = |n: usize, base: usize, k: usize| n / base.pow(k as u32) % base;
-    for l in 0..LUMPS.pow(D as u32) {
-        let (mut volume, mut moment) = (0.0, Vect::<D>::zeros());
-        for s in 0..SAMPLES.pow(D as u32) {
-            let at = Vect::<D>::from_fn(|k, _| {
-                let number = place(l, LUMPS, k) * SAMPLES + place(s, SAMPLES, k);
-                (number as f64 + 0.5) * size - 0.5 * step
-            });
-            // The share of a sample that is fluid, to first order in its distance.
-            let part = (height_at(&at) / size + 0.5).clamp(0.0, 1.0) * size.powi(D as i32);
-            volume += part;
-            moment += at * part;
-        }
-        if volume > 0.0 {
-            let place = x + moment / volume;
-            lumps.push(Lump { place, volume });
+    /// A node too far from curved elements to have a value: of the flat faces alone.
+    fn far_node(&self, x: &Vect<D>) -> NodeKind<D> {
+        let height = (self.over_flat)(x);
+        NodeKind {
+            height,
+            from_curved: f64::INFINITY,
+            lumps: self.lumps(x, height, |at| (self.over_flat)(&(x + at))),
+            nearest: 0,
         }
     }
-    lumps
+
+    fn near_node(&self, x: &Vect<D>, several: bool) -> NodeKind<D> {
+        let reach = (REACH + 0.5) * self.kernel.smoothing_length();
+        // The mesh takes places in the box.
+        let place = self.domain.wrapped(*x);
+        let near = self.mesh.near(&place, reach);
+        let curved = near.iter().filter(|n| self.curved[n.index()]);
+        let walls: Vec<usize> = match several {
+            true => curved.clone().map(|n| self.mesh.wall_of(*n)).collect(),
+            false => Vec::new(),
+        };
+        let curved = self.mesh.seen(&place, curved);
+        let distance = |k: usize| {
+            let only = std::slice::from_ref(&curved[k]);
+            SeenElement::signed_distance(only, [0.0; D], reach).map_or(f64::INFINITY, f64::abs)
+        };
+        let nearest = (0..walls.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        let seen = self.mesh.seen(&place, &near);
+        let from_curved = SeenElement::signed_distance(&curved, [0.0; D], reach);
+        let height = SeenElement::signed_distance(&seen, [0.0; D], reach);
+        let height = height.unwrap_or_else(|| match self.mesh.contains(&place) {
+            true => f64::INFINITY,
+            false => f64::NEG_INFINITY,
+        });
+        NodeKind {
+            height,
+            from_curved: from_curved.map_or(f64::INFINITY, f64::abs),
+            lumps: self.lumps(x, height, |at| {
+                SeenElement::signed_distance(&seen, (*at).into(), reach).unwrap_or(0.0)
+            }),
+            nearest: nearest.map_or(0, |k| walls[k] as u32),
+        }
+    }
+
+    /// The lumps of the cell around a node at a height over the walls, if they cut it; `height_at` is that of a place
+    /// relative to the node, m.
+    fn lumps(&self, x: &Vect<D>, height: f64, height_at: impl Fn(&Vect<D>) -> f64) -> Vec<Lump<D>> {
+        let (step, mut lumps) = (self.step(), Vec::new());
+        if height.abs() > half_diagonal::<D>(step) {
+            return lumps;
+        }
+        let size = step / (LUMPS * SAMPLES) as f64;
+        let place = |n: usize, base: usize, k: usize| n / base.pow(k as u32) % base;
+        for l in 0..LUMPS.pow(D as u32) {
+            let (mut volume, mut moment) = (0.0, Vect::<D>::zeros());
+            for s in 0..SAMPLES.pow(D as u32) {
+                let at = Vect::<D>::from_fn(|k, _| {
+                    let number = place(l, LUMPS, k) * SAMPLES + place(s, SAMPLES, k);
+                    (number as f64 + 0.5) * size - 0.5 * step
+                });
+                // The share of a sample that is fluid, to first order in its distance.
+                let part = (height_at(&at) / size + 0.5).clamp(0.0, 1.0) * size.powi(D as i32);
+                volume += part;
+                moment += at * part;
+            }
+            if volume > 0.0 {
+                let place = x + moment / volume;
+                lumps.push(Lump { place, volume });
+            }
+        }
+        lumps
+    }
 }
 
-/// Half of the diagonal of a cell, m.
 fn half_diagonal<const D: usize>(step: f64) -> f64 {
     0.5 * (D as f64).sqrt() * step
 }

@@ -5,9 +5,8 @@ use sph_kernels::Kernel;
 use sph_neighbours::Domain;
 
 use crate::geometry::surface::boxed;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::WallScales;
-use crate::{Drawing, PlanarWalls, Polyline, SpatialWalls, WallSetup, WallSpec};
+use crate::{Drawing, PlanarWalls, Polyline, SpatialWalls, WallMesh, WallSetup, WallSpec};
 
 const H: f64 = 1.0;
 

@@ -2,7 +2,6 @@
 
 use sph_core::Vect;
 
-/// A grid of nodes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid<const D: usize> {
     /// Its first node, m.
@@ -14,7 +13,6 @@ pub(crate) struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// Around a box.
     pub fn around(low: Vect<D>, high: Vect<D>, step: f64) -> Self {
         let along = |k: usize| ((high[k] - low[k]) / step).ceil().max(3.0) as usize + 1;
         Grid {
@@ -24,7 +22,6 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.iter().product()
     }
@@ -39,7 +36,6 @@ impl<const D: usize> Grid<D> {
         })
     }
 
-    /// The place of a node, m.
     pub fn place(&self, node: usize) -> Vect<D> {
         let strides = self.strides();
         let number = |k: usize| node / strides[k] % self.nodes[k];

@@ -6,16 +6,13 @@ use rayon::prelude::*;
 use sph_core::{Sets, Vect, bounds};
 use sph_neighbours::{CHUNK, Domain, Frame, Slope};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::scale::flat::{FlatFace, flat_faces};
+use crate::scale::flat::{FlatFace, PlaneScale, REACH, flat_faces};
 use crate::scale::map::{Mapping, ScaleMap};
-use crate::scale::plane::{PlaneScale, REACH};
-use crate::{BoundaryError, PeriodicBox, WallSetup, WallSpec};
+use crate::{PeriodicBox, Result, WallMesh, WallSetup, WallSpec};
 
 /// Size of the elements of faces, over h: the scale is that of faces, for any division into pieces.
 const ELEMENT: f64 = 4.0;
 
-/// The scale of all walls.
 #[derive(Debug)]
 pub(crate) struct WallScales<const D: usize, M> {
     plane: PlaneScale,
@@ -27,11 +24,8 @@ pub(crate) struct WallScales<const D: usize, M> {
 /// Walls that move as one and have nodes in common.
 #[derive(Debug)]
 struct Group<const D: usize, M> {
-    /// Its first wall.
     wall: u32,
-    /// Numbers of its walls.
     walls: Vec<u32>,
-    /// The mesh as drawn.
     mesh: M,
     faces: Vec<FlatFace<D>>,
     map: Option<ScaleMap<D>>,
@@ -66,7 +60,6 @@ pub(crate) fn element_size<const D: usize>(
     (share * least).min(most).max(spacing)
 }
 
-/// s and ∇ ln s at a particle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScaleAt<const D: usize> {
     pub scale: f64,
@@ -78,7 +71,7 @@ impl<const D: usize, M: WallMesh<D>> WallScales<D, M> {
     ///
     /// # Errors
     /// If a wall cannot have a scale.
-    pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self, BoundaryError> {
+    pub fn new(setup: &WallSetup<'_, D>, groups: &[usize]) -> Result<Self> {
         let plane = PlaneScale::new(setup.kernel, D);
         let h = setup.smoothing_length;
         let kernel = setup.kernel.sampler(D, h);

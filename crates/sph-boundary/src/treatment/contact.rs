@@ -5,20 +5,16 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 
 use crate::geometry::vector::{bounds, widened};
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
-use crate::{Element, Node, Touch, WallSpec};
+use crate::{Element, Node, Touch, WallMesh, WallSpec};
 
 /// Distance at which surfaces begin to push, over the spacing: a row of particles fits between them. Particles that are
 /// caught between surfaces half a spacing apart are few for their room, and tension draws them to a clump.
 const GAP: f64 = 1.0;
-
 /// The same of walls that are drawn as near, or nearer.
 const LEAST_GAP: f64 = 0.5;
-
 /// Greatest depth behind a surface from which a place is pushed out of it, over the spacing.
 pub(crate) const DEPTH: f64 = 1.0;
-
 /// Range of the search for surfaces, over the spacing: those that meet within a step, in which no wall goes farther
 /// than half a spacing.
 const REACH: f64 = GAP + 1.0;
@@ -78,7 +74,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         drawn.copied().unwrap_or(GAP * self.spacing)
     }
 
-    /// Contact law of each wall.
     pub(crate) fn touches(&self) -> Vec<Option<Touch>> {
         let touch = |spec: &WallSpec<D>| spec.mover.as_ref().and_then(|m| m.touch());
         self.specs.iter().map(touch).collect()

@@ -1,12 +1,13 @@
 //! The contract of wall treatments.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use sph_core::{AnyField, FlowNature, StepError, SuitedPlugin, Vect, Work, contract};
 use sph_kernels::Kernel;
 use sph_neighbours::{Coulomb, DepthGauge, Domain, WallSet, World};
 
-use crate::{BoundaryError, Drawing, Mover, RigidMotion};
+use crate::{Drawing, Mover, Result, RigidMotion};
 
 /// Condition of the fluid at a wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,8 +17,7 @@ pub enum WallCondition {
     NoSlip,
     /// The wall exerts no friction.
     FreeSlip,
-    /// The fluid slides as if it stuck to a wall this far behind the real one: u_t = λ ∂u_t/∂n
-    /// (Navier's condition).
+    /// The fluid slides as if it stuck to a wall this far behind the real one: u_t = λ ∂u_t/∂n (Navier's condition).
     PartialSlip {
         /// Slip length λ, m.
         length: f64,
@@ -142,7 +142,7 @@ pub trait WallShape<const D: usize> {
     ///
     /// # Errors
     /// Names the wall and the end.
-    fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError>;
+    fn check_free_ends(&self, points: &[Vect<D>]) -> Result<()>;
 
     /// The thinnest place of every wall that does not hide fluid on one side from fluid on the other; wet ones first.
     fn thin_walls(&self, points: &[Vect<D>]) -> Vec<ThinWall<D>>;
@@ -163,7 +163,7 @@ pub trait WallMotion<const D: usize> {
         gravity: Vect<D>,
         time: f64,
         dt: f64,
-    ) -> Result<(), BoundaryError>;
+    ) -> Result<()>;
 
     /// True if the mover of a wall, by its number, needs forces.
     fn needs_forces(&self, wall: usize) -> bool;
@@ -178,12 +178,7 @@ pub trait WallMotion<const D: usize> {
     ///
     /// # Errors
     /// If the states are not those of these walls, or a wall cannot follow.
-    fn put_back(
-        &mut self,
-        walls: &mut WallSet<D>,
-        states: &WallStates,
-        time: f64,
-    ) -> Result<(), BoundaryError>;
+    fn put_back(&mut self, walls: &mut WallSet<D>, states: &WallStates, time: f64) -> Result<()>;
 }
 
 /// A treatment of all walls of a scene.
@@ -196,7 +191,7 @@ pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
     ///
     /// # Errors
     /// If a wall is refused; the message names it.
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError>;
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>>;
 
     /// Columns of particles that [`geometry`](Self::geometry) writes: γ, or s with its slope; none if the kernel is full.
     fn columns(&self) -> Vec<AnyField> {
@@ -215,8 +210,7 @@ pub trait Wall<const D: usize>: WallShape<D> + WallMotion<D> + Send + Sync {
     /// If a column is missing.
     fn state(&mut self, world: &mut World<D>) -> Result<(), StepError>;
 
-    /// Corrects velocities that would carry particles through a wall within `dt`; called before
-    /// every drift.
+    /// Corrects velocities that would carry particles through a wall within `dt`; called before every drift.
     ///
     /// # Errors
     /// If a column is missing.
@@ -247,4 +241,34 @@ fn vertices(flow: &FlowNature, named: Option<&str>) -> Option<SuitedPlugin> {
         parameters,
         reason,
     })
+}
+
+/// For every wall the first one that moves as it does.
+pub(crate) fn groups<const D: usize>(walls: &[WallSpec<D>]) -> Vec<usize> {
+    let mut groups: Vec<usize> = Vec::with_capacity(walls.len());
+    for (k, wall) in walls.iter().enumerate() {
+        let first = match is_piece(walls, k) {
+            true => groups[k - 1],
+            false => {
+                let prescribed = |w: &WallSpec<D>| w.mover.is_none();
+                let as_it = |o: &WallSpec<D>| prescribed(o) && o.motion == wall.motion;
+                let mut before = walls[..k].iter();
+                let together = before.position(|o| prescribed(wall) && as_it(o));
+                together.unwrap_or(k)
+            }
+        };
+        groups.push(first);
+    }
+    groups
+}
+
+/// The pieces of a wall, by its first one.
+pub(crate) fn pieces<const D: usize>(walls: &[WallSpec<D>], first: usize) -> Range<usize> {
+    let more = (first + 1..walls.len()).take_while(|k| is_piece(walls, *k));
+    first..first + 1 + more.count()
+}
+
+/// True if a wall is a further piece of the one before it, of which there may be thousands.
+pub(crate) fn is_piece<const D: usize>(walls: &[WallSpec<D>], k: usize) -> bool {
+    k > 0 && walls[k].drawing.name() == walls[k - 1].drawing.name()
 }

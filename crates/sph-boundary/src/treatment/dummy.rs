@@ -4,15 +4,14 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{LanePair, PairSum, Particles, WallSet, World, add_scaled, shepard, splat};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::treatment::shepard::EffectiveGravity;
 use crate::{
-    BoundaryError, PlanarWalls, SpatialWalls, Wall, WallCondition, WallEntry, WallSetup, WallSpec,
-    WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallCondition, WallEntry, WallMesh,
+    WallSetup, WallSpec, WallStates,
 };
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
@@ -49,7 +48,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
 }
 
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
-    fn new(setup: &WallSetup<'_, D>) -> Result<Self, BoundaryError> {
+    fn new(setup: &WallSetup<'_, D>) -> Result<Self> {
         let support = setup.kernel.support() * setup.smoothing_length;
         let rough = |w: &&WallSpec<D>| matches!(w.condition, WallCondition::Coulomb(_));
         if let Some(wall) = setup.walls.iter().find(rough) {
@@ -77,7 +76,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         })
     }
 
-    /// Places the layers where the outline is.
     fn place(&self, walls: &mut WallSet<D>) {
         self.outline.write(walls);
         let maps = self.outline.maps();
@@ -95,7 +93,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for DummyParticles<D, M> {
         0.5
     }
 
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>> {
         let set_up = SetUp::<D, M>::new(setup)?;
         let outline = &set_up.outline;
         let points = set_up.drawn.iter().map(|(wall, place)| {

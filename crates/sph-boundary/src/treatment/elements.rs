@@ -4,13 +4,11 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{ContactBlock, WallSet, World};
 
-use crate::geometry::shells::Gammas;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
 use crate::treatment::shepard::{WallMean, wall_means};
-use crate::treatment::stage_error;
-use crate::{BoundaryError, WallSetup};
+use crate::treatment::{Staged, stage_error};
+use crate::{BoundaryError, Gammas, Result, WallMesh, WallSetup};
 
 /// Walls of elements as both treatments have them: mesh, integrals, contacts.
 #[derive(Debug)]
@@ -27,19 +25,16 @@ pub(crate) struct SetUp<const D: usize, M: WallMesh<D>> {
     clearance: Vec<f64>,
     /// The last state of the fluid at points and elements; kept for its memory.
     means: [Vec<WallMean>; 2],
-    /// Elements around each corner.
     around: Vec<u32>,
 }
 
 /// Particles that one task works through.
 const BATCH: usize = 64;
 
-/// Results of a batch of particles.
 #[derive(Debug, Default)]
 struct BatchResults<R> {
     gammas: Gammas,
     clearance: Vec<f64>,
-    /// Buffers of the integrals.
     room: R,
 }
 
@@ -79,7 +74,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
             *own = normal;
         }
         for (s, element) in outline.mesh.elements().iter().enumerate() {
-            let (centre, movement) = outline.seen_place(walls, element.wall, element.centre.into());
+            let (centre, movement) = outline.seen(walls, element.wall, element.centre.into());
             let elements = &mut walls.elements;
             elements.centre[s] = centre;
             elements.normal[s] = element.normal.into();
@@ -170,13 +165,12 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         setup: &WallSetup<'_, D>,
         vertices: bool,
         size: f64,
-    ) -> Result<(Self, WallSet<D>), BoundaryError> {
+    ) -> Result<(Self, WallSet<D>)> {
         let shape = setup.kernel.polynomial().ok_or_else(|| {
-            let name = setup.kernel.name();
-            let reason = format!(
-                "`{name}` gives no radial moments, and semi-analytical walls integrate them"
-            );
-            BoundaryError::Kernel { reason }
+            BoundaryError::kernel(format!(
+                "`{}` gives no radial moments, and semi-analytical walls integrate them",
+                setup.kernel.name()
+            ))
         })?;
         let integrals = M::integrals(shape, setup.smoothing_length)?;
         let support = setup.kernel.support() * setup.smoothing_length;
@@ -206,7 +200,6 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         Ok((set_up, walls))
     }
 
-    /// Contacts and γ at the present positions.
     pub fn geometry(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         self.near.refresh(&mut self.outline, world)?;
         if self.is_fresh(world.free.get(fields::POSITION)?) {
@@ -217,10 +210,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
         let positions = world.free.get(fields::POSITION)?;
         // Wall functions and scalars transported to walls read the contacts of every particle, and not in sums.
         let read = !(world.walls.elements.wall_function.is_empty() && world.transported.is_empty());
-        let idle = match read {
-            true => None,
-            false => world.idle(),
-        };
+        let idle = if read { None } else { world.idle() };
         let contacts = &mut world.walls.contacts;
         let mut blocks = contacts.take_blocks(positions.len());
         self.find(positions, idle.as_deref(), &mut blocks);
@@ -246,12 +236,7 @@ impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     }
 
     /// Keeps particles off the walls, by a share of the spacing at least.
-    pub fn constrain(
-        &mut self,
-        world: &mut World<D>,
-        dt: f64,
-        least: f64,
-    ) -> Result<(), StepError> {
+    pub fn constrain(&mut self, world: &mut World<D>, dt: f64, least: f64) -> Staged {
         // Heights over the planes of all elements in reach bound the distances from below.
         let clearance = |place: usize| self.clearance.get(place).copied().unwrap_or(0.0);
         let (near, outline) = (&self.near, &self.outline);

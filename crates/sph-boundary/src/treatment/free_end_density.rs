@@ -1,14 +1,11 @@
 //! Densities where particles come to see past a free end, or lose sight of the fluid there.
 
 use sph_core::{StepError, Vect, fields};
-use sph_kernels::Sampler;
 use sph_neighbours::{ContactBlock, HiddenPairs, World};
 
-use crate::SeenElement;
-use crate::geometry::shells::Gammas;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
+use crate::{Gammas, SeenElement, WallMesh};
 
 /// Position of a particle at the end of a drift, seen from the wall near it.
 struct DriftEnd<const D: usize> {
@@ -74,8 +71,12 @@ impl<const D: usize> NearLists<D> {
         let there = self.hidden(mesh, world, &behind, at);
         let now = &world.lists.hidden;
         let mass = world.free.get(fields::MASS)?;
-        let kernel = &*world.kernel;
-        let w = |apart: Vect<D>| value(kernel, &world.domain.nearest_image(apart));
+        let w = |apart: Vect<D>| {
+            let apart = world.domain.nearest_image(apart);
+            let mut w = [0.0];
+            world.kernel.value(&[apart.norm_squared()], &mut w);
+            w[0]
+        };
         each_change(&now.particles, &there.particles, |i, j, sign| {
             constant[i] += sign * mass[i] * w(at(i) - at(j));
         });
@@ -140,10 +141,4 @@ fn each_change(now: &HiddenPairs, there: &HiddenPairs, mut of: impl FnMut(usize,
             }
         }
     }
-}
-
-fn value<const D: usize>(kernel: &dyn Sampler, apart: &Vect<D>) -> f64 {
-    let mut w = [0.0];
-    kernel.value(&[apart.norm_squared()], &mut w);
-    w[0]
 }

@@ -5,28 +5,25 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{FreeBody, WallForce, World};
 
-use crate::NearElement;
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
 use crate::treatment::near::NearLists;
 use crate::treatment::outline::Outline;
+use crate::{Hindrance, NearElement, View, WallMesh};
 
 /// A particle is not let nearer to a wall than this share of the spacing.
 ///
 /// The pressure keeps particles of a filled fluid at about half a spacing or more, so that the
 /// constraint acts on lone particles only.
 pub(crate) const LEAST_CLEARANCE: f64 = 0.25;
-
 /// Rounds over the elements near a particle before a corner simply stops it.
 const TURNS: usize = 4;
 
 impl<const D: usize> NearLists<D> {
     /// Removes the part of the velocities that would carry a particle into a wall within `dt`.
     ///
-    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if
-    /// d + Δt (u − u_w)·e falls below the `least` share of a spacing, the velocity along e is raised to
-    /// what ends there, at most to that of the wall. A plastic impact: the pressure of a lone
-    /// particle, whose density sum is far below ρ₀, would not stop it. What several elements
-    /// ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
+    /// With c the nearest point of an element, e = (r − c)/|r − c| and d = |r − c|: if d + Δt (u − u_w)·e falls below
+    /// the `least` share of a spacing, the velocity along e is raised to what ends there, at most to that of the wall.
+    /// A plastic impact: the pressure of a lone particle, whose density sum is far below ρ₀, would not stop it. What
+    /// several elements ask is met in turns; a particle that a sharp corner still holds then goes with the wall.
     ///
     /// `height` gives a lower bound of the distance of the particle at a place of `particles`
     /// from any element in front of it, m; particles out of danger are skipped.
@@ -50,7 +47,7 @@ impl<const D: usize> NearLists<D> {
             fastest,
             dt,
         };
-        let mut changed: Vec<(usize, StoppedVelocity<D>)> = self
+        let mut changed: Vec<(usize, Stopped<D>)> = self
             .particles
             .par_iter()
             .enumerate()
@@ -67,7 +64,7 @@ impl<const D: usize> NearLists<D> {
                 u.map(|u| (p, u))
             })
             .collect();
-        let forces = match outline.any_needs_forces() {
+        let forces = match (0..outline.specs.len()).any(|wall| outline.needs_forces(wall)) {
             true => {
                 for body in &world.walls.bodies {
                     give_way(body, world, &mut changed)?;
@@ -90,7 +87,7 @@ impl<const D: usize> NearLists<D> {
 fn give_way<const D: usize>(
     body: &FreeBody<D>,
     world: &World<D>,
-    changed: &mut [(usize, StoppedVelocity<D>)],
+    changed: &mut [(usize, Stopped<D>)],
 ) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
     let mass = world.free.get(fields::MASS)?;
@@ -139,7 +136,7 @@ fn give_way<const D: usize>(
 fn blows<const D: usize, M: WallMesh<D>>(
     outline: &Outline<D, M>,
     world: &World<D>,
-    changed: &[(usize, StoppedVelocity<D>)],
+    changed: &[(usize, Stopped<D>)],
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let mass = world.free.get(fields::MASS)?;
@@ -165,20 +162,18 @@ fn blows<const D: usize, M: WallMesh<D>>(
 
 /// The velocity of a particle that walls have stopped, and the change by each of them, m/s, with the whole periods to
 /// the wall.
-struct StoppedVelocity<const D: usize> {
+struct Stopped<const D: usize> {
     velocity: Vect<D>,
     /// Largest speed after any of the changes, m/s.
     fastest: f64,
     pushes: Vec<(usize, Vect<D>, Vect<D>)>,
 }
 
-/// Hindrance of a particle next to a wall in a step.
 struct Impact<'a, const D: usize, M: WallMesh<D>> {
     outline: &'a Outline<D, M>,
     spacing: f64,
     /// Distance from a wall to which a particle may come, m.
     least: f64,
-    /// Largest speed of a wall, m/s.
     fastest: f64,
     dt: f64,
 }
@@ -188,12 +183,7 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
     ///
     /// Up to a speed v, only places within the least distance + Δt v hinder. Walls at rest make no particle faster; where
     /// moving ones do, farther places are searched as well.
-    fn stopped(
-        &self,
-        here: (&Vect<D>, &[(u32, u32)]),
-        u: Vect<D>,
-        row: &[NearElement<D>],
-    ) -> Option<StoppedVelocity<D>> {
+    fn stopped(&self, here: View<'_, D>, u: Vect<D>, row: &[NearElement<D>]) -> Option<Stopped<D>> {
         let all = 4.0 * self.spacing;
         let speed = 1.000_001 * (u.norm() + self.fastest);
         let reach = self.least + self.dt * speed;
@@ -205,23 +195,21 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         }
     }
 
-    /// The velocity that no element within `reach` objects to.
     fn corrected(
         &self,
-        here: (&Vect<D>, &[(u32, u32)]),
+        here: View<'_, D>,
         u: Vect<D>,
         row: &[NearElement<D>],
         reach: f64,
-    ) -> Option<StoppedVelocity<D>> {
+    ) -> Option<Stopped<D>> {
         let mesh = &self.outline.mesh;
-        let mut hindrances = Vec::new();
-        mesh.hindrances(here, row, reach, &mut hindrances);
+        let mut hindrances = mesh.hindrances(here, row, reach);
         hindrances.retain(|h| !self.outline.specs[h.wall].open);
         if hindrances.is_empty() {
             return None;
         }
         let walls: Vec<Vect<D>> = hindrances.iter().map(|h| self.wall_velocity(h)).collect();
-        let mut new = StoppedVelocity {
+        let mut new = Stopped {
             velocity: u,
             fastest: 0.0,
             pushes: Vec::new(),
@@ -258,7 +246,6 @@ impl<const D: usize, M: WallMesh<D>> Impact<'_, D, M> {
         movement.velocity + movement.acceleration * (0.5 * self.dt)
     }
 
-    /// The change of velocity by a hindrance.
     fn push(&self, u: &Vect<D>, hindrance: &Hindrance<D>, wall: &Vect<D>) -> Option<Vect<D>> {
         let least = self.least;
         // The deficit of the velocity along e for an end at the least clearance.

@@ -4,14 +4,12 @@ use sph_core::Vect;
 use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::groups::{is_piece, pieces};
+use crate::treatment::contract::{is_piece, pieces};
 use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, Mover, RigidState, WallSpec, WallStates};
+use crate::{BoundaryError, Load, Mover, Result, RigidState, WallMesh, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
-
 /// The most that a bed may rise, over the height within which walls in it stretch.
 const HIGHEST: f64 = 0.9;
 
@@ -33,7 +31,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         bodies: &[FreeBody<D>],
         gravity: Vect<D>,
         [time, dt]: [f64; 2],
-    ) -> Result<bool, BoundaryError> {
+    ) -> Result<bool> {
         let load = |k: usize| self.load(k, forces, gravity);
         let mut loads: Vec<_> = (0..self.specs.len()).map(load).collect();
         self.check_dry(&loads)?;
@@ -58,14 +56,14 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     ///
     /// # Errors
     /// A bed that rises to the top of the walls that stand in it.
-    pub fn grow(&mut self, beds: Vec<Bed>, dt: f64) -> Result<(), BoundaryError> {
+    pub fn grow(&mut self, beds: Vec<Bed>, dt: f64) -> Result<()> {
         for (bed, mut grown) in self.beds[0].iter_mut().zip(beds) {
             let both = grown.lift.iter_mut().zip(&grown.rate);
             both.for_each(|(lift, rate)| *lift += dt * rate);
             let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
             if highest.is_nan() || highest >= HIGHEST * grown.fade {
                 let (wall, height) = (self.name(grown.walls[0] as usize), grown.fade);
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "the bed `{wall}` has risen by {highest:.3} m, and walls that stand in it stretch over {height} m: \
                      give `[wall.{wall}.erodible]` a larger `stretch`"
                 )));
@@ -76,10 +74,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Refuses fluid at bodies that are too light for any.
-    fn check_dry(&self, loads: &[Load<D>]) -> Result<(), BoundaryError> {
+    fn check_dry(&self, loads: &[Load<D>]) -> Result<()> {
         for (k, touch) in self.touches().into_iter().enumerate() {
             if touch.is_some_and(|t| t.dry) && loads[k].force != Vect::<D>::zeros() {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "fluid acts on the body `{}`, which has less than a fiftieth of its density: one particle of it \
                      would throw the body; give it more `density`",
                     self.name(k)
@@ -111,20 +109,18 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         from: &[RigidState<D>],
         loads: &[Load<D>],
         [time, dt]: [f64; 2],
-    ) -> Result<Vec<RigidState<D>>, BoundaryError> {
+    ) -> Result<Vec<RigidState<D>>> {
         let mut states = self.states_at(time + dt, from);
         for (k, mover) in self.movers() {
             let state = mover.next(&from[k], &loads[k], time, dt);
             if RigidState::<D>::from_numbers(&state.numbers()).is_none() {
-                let wall = self.name(k);
-                return Err(BoundaryError::Motion { wall });
+                return Err(BoundaryError::motion(self.name(k)));
             }
             states[pieces(&self.specs, k)].fill(state);
         }
         Ok(states)
     }
 
-    /// Loads of a wall with all its pieces.
     fn load(&self, wall: usize, forces: &[WallForce<D>], gravity: Vect<D>) -> Load<D> {
         if self.specs[wall].mover.is_none() || is_piece(&self.specs, wall) {
             return Load::of_gravity(gravity);
@@ -142,22 +138,15 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
     }
 
-    /// True if the mover of a wall needs forces.
     pub fn needs_forces(&self, wall: usize) -> bool {
         let mover = self.specs.get(wall).and_then(|spec| spec.mover.as_ref());
         mover.is_some_and(|mover| mover.needs_forces())
     }
 
-    /// Gauges of the depth before walls with movers.
     pub fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         let all = self.movers();
         all.filter_map(|(k, mover)| Some((k, mover.looks(&self.states[k])?)))
             .collect()
-    }
-
-    /// True if any mover needs forces.
-    pub fn any_needs_forces(&self) -> bool {
-        (0..self.specs.len()).any(|wall| self.needs_forces(wall))
     }
 
     /// The walls with movers, each by its first piece.
@@ -166,7 +155,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         all.filter_map(|k| Some((k, self.specs[k].mover.as_deref()?)))
     }
 
-    /// Numbers of the walls with movers.
     pub fn numbers(&self) -> WallStates {
         let all = |states: &[RigidState<D>], beds: &[Bed]| -> Vec<f64> {
             let own = self.movers().flat_map(|(k, _)| states[k].numbers());
@@ -179,15 +167,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Puts walls back where they were at a time; returns whether anything moved.
-    pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool, BoundaryError> {
+    pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool> {
         let given = |numbers: &[f64]| {
             let mut states = self.states_at(time, &self.states);
             let own = self.movers().count() * RigidState::<D>::NUMBERS;
             let (own, levels) = numbers.split_at(own.min(numbers.len()));
             let mut parts = own.chunks(RigidState::<D>::NUMBERS);
-            let unsound = |wall: usize| BoundaryError::Motion {
-                wall: self.name(wall),
-            };
+            let unsound = |wall: usize| BoundaryError::motion(self.name(wall));
             for (k, _) in self.movers() {
                 let part = parts.next().and_then(RigidState::from_numbers);
                 let state = part.ok_or_else(|| unsound(k))?;
@@ -211,11 +197,11 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         self.put(states, time)
     }
 
-    fn put(&mut self, states: Vec<RigidState<D>>, time: f64) -> Result<bool, BoundaryError> {
+    fn put(&mut self, states: Vec<RigidState<D>>, time: f64) -> Result<bool> {
         let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
         let moved = !self.beds[0].is_empty() || !self.states.iter().map(|s| &s.pose).eq(&poses);
         if moved {
-            self.mesh.walls_mut().lay(&self.beds[0]);
+            self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
             self.mesh.move_walls(&poses)?;
         }
         self.states = states;
@@ -242,11 +228,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// Asks the mesh something as if the walls were where they were at the last build of the lists, at a time.
-    pub fn at_lists<R>(
-        &mut self,
-        time: f64,
-        ask: impl FnOnce(&M) -> R,
-    ) -> Result<R, BoundaryError> {
+    pub fn at_lists<R>(&mut self, time: f64, ask: impl FnOnce(&M) -> R) -> Result<R> {
         if !std::mem::take(&mut self.put_back) {
             self.listed.clone_from(&self.states);
             let [now, listed] = &mut self.beds;
@@ -261,10 +243,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         if there == here {
             return Ok(ask(&self.mesh));
         }
-        self.mesh.walls_mut().lay(&self.beds[1]);
+        self.beds[1].clone_into(&mut self.mesh.walls_mut().mesh.beds);
         self.mesh.move_walls(&there)?;
         let answer = ask(&self.mesh);
-        self.mesh.walls_mut().lay(&self.beds[0]);
+        self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
         self.mesh.move_walls(&here)?;
         Ok(answer)
     }

@@ -4,10 +4,9 @@ use rayon::prelude::*;
 use sph_core::{Slots, StepError, Vect, fields};
 use sph_neighbours::{Hidden, HiddenPairs, World};
 
-use crate::NearElement;
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::outline::Outline;
 use crate::treatment::stage_error;
+use crate::{NearElement, NearRows, WallMesh};
 
 /// Range of the search for elements beyond that of the neighbour lists, over the support: a row stands until particle
 /// and walls have come this much nearer, while the lists come and go.
@@ -15,7 +14,6 @@ use crate::treatment::stage_error;
 /// Longer rows cost every γ, which has to leave out elements beyond the support; shorter ones are looked for more
 /// often.
 const SKIN: f64 = 0.3;
-
 /// Particles whose elements one task looks for.
 const BATCH: usize = 256;
 
@@ -27,7 +25,6 @@ const BATCH: usize = 256;
 #[derive(Debug, Default)]
 pub(crate) struct NearLists<const D: usize> {
     built_for: u64,
-    /// Builds so far.
     pub version: u64,
     /// Particles with an element near, ascending.
     pub particles: Vec<u32>,
@@ -35,20 +32,16 @@ pub(crate) struct NearLists<const D: usize> {
     pub rims: Vec<u32>,
     /// Places of `particles`, ascending, and the shells that they are behind at the present positions.
     pub behind: Vec<(u32, u32)>,
-    /// Of every particle.
     rows: Vec<Row<D>>,
-    /// Identities of the particles of the rows.
     identities: Vec<u32>,
     elements: Vec<NearElement<D>>,
     /// Largest travel of a wall, m: the sum over all builds.
     travelled: f64,
     /// Places of the nodes at the last build, m; empty where no wall ever moves.
     nodes: Vec<Vect<D>>,
-    /// Kept for its memory.
     room: Scratch<D>,
 }
 
-/// Buffers of a search.
 #[derive(Debug, Default)]
 struct Scratch<const D: usize> {
     sorted: Vec<Row<D>>,
@@ -56,12 +49,10 @@ struct Scratch<const D: usize> {
     found: Vec<TaskResults<D>>,
 }
 
-/// Results of one task.
 #[derive(Debug, Default)]
 struct TaskResults<const D: usize> {
     places: Vec<Vect<D>>,
-    counts: Vec<u32>,
-    elements: Vec<NearElement<D>>,
+    rows: NearRows<D>,
 }
 
 /// Elements of a particle, and its position when they were found.
@@ -75,7 +66,6 @@ struct Row<const D: usize> {
 }
 
 impl<const D: usize> Row<D> {
-    /// Not found yet.
     fn none() -> Self {
         Row {
             place: Vect::repeat(f64::NAN),
@@ -125,7 +115,6 @@ impl<const D: usize> NearLists<D> {
         searched.map_err(stage_error)
     }
 
-    /// Finds those with an element at a free end near.
     fn find_rims<M: WallMesh<D>>(&mut self, mesh: &M) {
         let mut rims = std::mem::take(&mut self.rims);
         rims.clear();
@@ -167,7 +156,6 @@ impl<const D: usize> NearLists<D> {
         self.identities.extend_from_slice(identities);
     }
 
-    /// Looks up missing elements.
     fn search<M: WallMesh<D>>(&mut self, mesh: &M, positions: &[Vect<D>], radius: f64, skin: f64) {
         let travelled = self.travelled;
         let mut room = std::mem::take(&mut self.room);
@@ -187,16 +175,15 @@ impl<const D: usize> NearLists<D> {
             found.places.clear();
             let places = batch.iter().map(|&i| positions[i as usize]);
             found.places.extend(places);
-            found.counts.clear();
-            found.elements.clear();
-            let (counts, elements) = (&mut found.counts, &mut found.elements);
-            mesh.near_all(&found.places, radius, counts, elements);
+            found.rows.counts.clear();
+            found.rows.elements.clear();
+            mesh.near_all(&found.places, radius, &mut found.rows);
             // Elements at free ends are looked at one by one.
             if !mesh.shells().any() {
-                mesh.merge(counts, elements);
+                mesh.merge(&mut found.rows);
             }
         });
-        let more = found.iter().map(|found| found.elements.len()).sum();
+        let more = found.iter().map(|found| found.rows.elements.len()).sum();
         self.make_room(more);
         // A search for most particles comes once: its memory is not kept, and given back on the way.
         let most = 2 * room.stale.len() > self.rows.len();
@@ -205,11 +192,12 @@ impl<const D: usize> NearLists<D> {
         }
         let mut from = self.elements.len() as u32;
         for (batch, found) in room.stale.chunks(BATCH).zip(&mut *found) {
-            self.elements.extend_from_slice(&found.elements);
+            let rows = &mut found.rows;
+            self.elements.extend_from_slice(&rows.elements);
             if most {
-                found.elements = Vec::new();
+                rows.elements = Vec::new();
             }
-            for (&i, &count) in batch.iter().zip(&found.counts) {
+            for (&i, &count) in batch.iter().zip(&rows.counts) {
                 self.rows[i as usize] = Row {
                     place: positions[i as usize],
                     travelled,

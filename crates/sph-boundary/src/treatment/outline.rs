@@ -4,18 +4,19 @@ use std::collections::BTreeMap;
 
 use sph_core::Vect;
 use sph_core::bed::Bed;
+use sph_kernels::Sampler;
 use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
 
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::groups::{groups, is_piece};
-use crate::treatment::kernel_reach::far_sight;
-use crate::{BoundaryError, Movement, Node, PeriodicBox, Pose, RigidState, WallSetup, WallSpec};
+use crate::treatment::contract::{groups, is_piece};
+use crate::{
+    BoundaryError, Movement, Node, PeriodicBox, Pose, Result, RigidState, WallMesh, WallSetup,
+    WallSpec,
+};
 
 /// Most periods that walls may reach across: images are counted in a byte.
 const MOST_PERIODS: f64 = 100.0;
-
 /// Range of queries, over the support: also those of filling and of a generous skin.
 const FARTHEST: f64 = 2.0;
 
@@ -41,9 +42,7 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub domain: Domain<D>,
     /// Forces on walls by stopped particles in the last drift.
     pub struck: Vec<WallForce<D>>,
-    /// The walls that forces move.
     pub bodies: Vec<FreeBody<D>>,
-    /// Moves so far.
     pub moved: u64,
     cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
@@ -51,22 +50,34 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Meshes the walls by elements of a size, m.
-    pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self, BoundaryError> {
+    pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self> {
         let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
         for spec in whole.map(|k| &setup.walls[k]) {
             if !spec.motion.is_sound() {
-                let wall = spec.drawing.name().to_string();
-                return Err(BoundaryError::Motion { wall });
+                return Err(BoundaryError::motion(spec.drawing.name()));
             }
             let slip = spec.condition.slip_length();
             if !(slip >= 0.0 && slip.is_finite()) {
-                let name = "slip length";
-                return Err(BoundaryError::NotPositive { name, value: slip });
+                return Err(BoundaryError::not_positive("slip length", slip));
             }
         }
         let reach = FARTHEST * support;
         let domain = PeriodicBox::from_domain(setup.domain);
-        check_reach(setup.walls, &domain)?;
+        domain.check()?;
+        for spec in setup.walls {
+            let periods = domain.periods_to(spec.drawing.points().into_iter());
+            if periods > MOST_PERIODS {
+                let why = format!(
+                    "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period \
+                     of it"
+                );
+                return Err(BoundaryError::unfit(spec.drawing.name(), why));
+            }
+        }
+        let start = |spec: &WallSpec<D>| match &spec.mover {
+            Some(mover) => mover.start(),
+            None => spec.motion.state(0.0),
+        };
         let mesh = M::build(setup.walls, size, reach, &domain)?;
         let laid = mesh.walls().mesh.beds.clone();
         let mut outline = Outline {
@@ -97,7 +108,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         Ok(outline)
     }
 
-    /// Name of a wall.
     pub fn name(&self, wall: usize) -> String {
         self.specs[wall].drawing.name().to_string()
     }
@@ -121,7 +131,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         movement
     }
 
-    /// From where a place of a wall was drawn to where it is.
     pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<'_, D, M>> {
         let walls = self.specs.iter().zip(&self.states).enumerate();
         let map = |(k, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
@@ -130,12 +139,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.map(map).collect()
     }
 
-    /// True if any wall changes its shape.
     pub fn bends(&self) -> bool {
         self.specs.iter().any(|s| s.motion.bends())
     }
 
-    /// True if any wall ever moves.
     pub fn moves(&self) -> bool {
         let moves = |s: &WallSpec<D>| s.motion.moves() || s.mover.is_some();
         self.specs.iter().any(moves)
@@ -152,7 +159,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         visible.into_iter().map(share).collect()
     }
 
-    /// Frames of the walls; empty where none ever moves.
     pub fn frames(&self) -> Vec<Frame<D>> {
         if !self.moves() {
             return Vec::new();
@@ -183,12 +189,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     /// A place of a wall as others see it, in the box, and the movement of the wall there.
-    pub fn seen_place(
-        &self,
-        walls: &WallSet<D>,
-        wall: usize,
-        place: Vect<D>,
-    ) -> (Vect<D>, Movement<D>) {
+    pub fn seen(&self, walls: &WallSet<D>, wall: usize, place: Vect<D>) -> (Vect<D>, Movement<D>) {
         let frame = walls.frames.get(wall);
         let seen = frame.map_or(place, |frame| place - frame.round);
         (seen, self.movement(wall, &place))
@@ -196,7 +197,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Puts a wall point at a place of its wall.
     pub fn put_point(&self, walls: &mut WallSet<D>, point: usize, wall: usize, place: Vect<D>) {
-        let (seen, movement) = self.seen_place(walls, wall, place);
+        let (seen, movement) = self.seen(walls, wall, place);
         let points = &mut walls.points;
         points.position[point] = seen;
         points.velocity[point] = movement.velocity;
@@ -229,7 +230,6 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.beds.clone_from(&self.beds[0]);
     }
 
-    /// True if any wall slips partly.
     pub fn slips(&self) -> bool {
         self.specs.iter().any(|s| s.condition.slip_length() > 0.0)
     }
@@ -311,28 +311,59 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 }
 
-/// State of a wall at time 0.
-fn start<const D: usize>(spec: &WallSpec<D>) -> RigidState<D> {
-    match &spec.mover {
-        Some(mover) => mover.start(),
-        None => spec.motion.state(0.0),
-    }
-}
+/// Share of a particle's kernel that may be behind a wall.
+const SEEN: f64 = 0.01;
+/// Steps of integrals over the kernel.
+const STEPS: u32 = 400;
 
-/// Refuses walls that reach so far out of a periodic box that their images would be without number.
-fn check_reach<const D: usize>(
-    walls: &[WallSpec<D>],
-    domain: &PeriodicBox<D>,
-) -> Result<(), BoundaryError> {
-    domain.check()?;
-    for spec in walls {
-        let periods = domain.periods_to(spec.drawing.points().into_iter());
-        if periods > MOST_PERIODS {
-            let why = format!(
-                "reaches {periods:.1e} periods from the periodic box, more than {MOST_PERIODS}: draw one period of it"
-            );
-            return Err(BoundaryError::unfit(spec.drawing.name(), why));
+/// Distance of a plane beyond which less than [`SEEN`] of the kernel lies, m.
+///
+/// In two dimensions 2r acos(d/r), in three 2πr(r − d) of the circle or sphere of radius r is beyond the distance d.
+pub(crate) fn far_sight<const D: usize>(kernel: &dyn Sampler) -> f64 {
+    let radius = kernel.support_radius();
+    let beyond = |d: f64| -> f64 {
+        let width = (radius - d) / f64::from(STEPS);
+        let part = |k: u32| {
+            let r = d + (f64::from(k) + 0.5) * width;
+            let cap = match D {
+                2 => 2.0 * r * (d / r).acos(),
+                _ => std::f64::consts::TAU * r * (r - d),
+            };
+            kernel.at(r).0 * cap * width
+        };
+        (0..STEPS).map(part).sum()
+    };
+    let (mut near, mut far) = (0.0, radius);
+    for _ in 0..40 {
+        let middle = 0.5 * (near + far);
+        match beyond(middle) > SEEN {
+            true => near = middle,
+            false => far = middle,
         }
     }
-    Ok(())
+    far
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wendland C2 in the plane: the share beyond a line at q = d/h, by quadrature of its marginal density.
+    #[test]
+    fn a_hundredth_of_the_kernel_is_beyond_the_far_sight() {
+        let (h, kernel) = (0.5, sph_kernels::wendland_c2());
+        let sampler = sph_kernels::Kernel::sampler(&kernel, 2, h);
+        let far = far_sight::<2>(&*sampler);
+        let n = 400;
+        let step = 2.0 * h / f64::from(n);
+        let mut beyond = 0.0;
+        for i in 0..n {
+            for j in -n..n {
+                let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) * step);
+                let w = sampler.at(x.hypot(y)).0;
+                beyond += if x > far { w * step * step } else { 0.0 };
+            }
+        }
+        assert!((beyond / SEEN - 1.0).abs() < 0.03, "{beyond} beyond {far}");
+    }
 }

@@ -6,14 +6,11 @@ use rayon::prelude::*;
 use sph_core::Vect;
 use sph_core::place_cells::offsets;
 
-use crate::Element;
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::treatment::contract::ThinWall;
 use crate::treatment::outline::Outline;
+use crate::{Element, ThinWall, WallMesh};
 
 /// Faces whose normals have a cosine below this are the two of a plate; a wedge of more than 8° has a tip, and no thickness.
 const OPPOSITE: f64 = -0.99;
-
 /// Places that differ by less than the spacing over this along every axis are nearly the same.
 const ALIKE: f64 = 4.0;
 

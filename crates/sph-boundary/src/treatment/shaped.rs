@@ -13,10 +13,8 @@ macro_rules! shaped_by_outline {
             fn moved(
                 &mut self,
                 walls: &mut WallSet<D>,
-                way: impl FnOnce(
-                    &mut crate::treatment::outline::Outline<D, M>,
-                ) -> Result<bool, BoundaryError>,
-            ) -> Result<(), BoundaryError> {
+                way: impl FnOnce(&mut crate::treatment::outline::Outline<D, M>) -> Result<bool>,
+            ) -> Result<()> {
                 if let Some(set_up) = self.set_up.as_mut().filter(|s| s.outline.moves()) {
                     let moved = way(&mut set_up.outline)?;
                     set_up.outline.moved += u64::from(moved);
@@ -43,7 +41,7 @@ macro_rules! shaped_by_outline {
                 self.outline().is_some_and(|o| o.mesh.shells().any())
             }
 
-            fn check_free_ends(&self, points: &[Vect<D>]) -> Result<(), BoundaryError> {
+            fn check_free_ends(&self, points: &[Vect<D>]) -> Result<()> {
                 self.outline()
                     .map_or(Ok(()), |o| o.mesh.check_free_ends(points, o.support))
             }
@@ -65,7 +63,7 @@ macro_rules! shaped_by_outline {
                 gravity: Vect<D>,
                 time: f64,
                 dt: f64,
-            ) -> Result<(), BoundaryError> {
+            ) -> Result<()> {
                 let forces = std::mem::take(&mut walls.forces);
                 let bodies = std::mem::take(&mut walls.bodies);
                 let beds = std::mem::take(&mut walls.beds);
@@ -94,7 +92,7 @@ macro_rules! shaped_by_outline {
                 walls: &mut WallSet<D>,
                 states: &WallStates,
                 time: f64,
-            ) -> Result<(), BoundaryError> {
+            ) -> Result<()> {
                 self.moved(walls, |outline| outline.put_back(states, time))
             }
         }

@@ -4,7 +4,6 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{Clusters, HiddenPairs, LanePair, PairSum, Particles, World, shepard};
 
-/// Means of the fluid at a place on the wall.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WallMean {
     /// Σ V [p + ρ (g − a_w)·(x − r)] w / Σ V w, Pa; 0 without fluid. Ghaïtanellis 2017, Eq. 2.91,

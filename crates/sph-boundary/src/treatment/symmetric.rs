@@ -3,18 +3,18 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{Slope, WallSet, World};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::{ScaleAt, WallScales, element_size};
+use crate::treatment::Staged;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::{
-    BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallSpec, WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallMesh, WallSetup,
+    WallSpec, WallStates,
 };
 
 /// Least distance of particles from walls over the spacing: that of films, which the density sum lets sink.
 const LEAST_CLEARANCE: f64 = 0.1;
-
 /// Size of elements over the spacing: γ and ∇γ do not depend on it, and no mean over elements enters a pressure.
 const ELEMENT: f64 = 2.0;
 
@@ -48,7 +48,6 @@ pub struct Symmetric<const D: usize, M: WallMesh<D>> {
     scales: Option<Scales<D, M>>,
 }
 
-/// The scale, and its last results.
 #[derive(Debug)]
 struct Scales<const D: usize, M> {
     walls: WallScales<D, M>,
@@ -58,11 +57,7 @@ struct Scales<const D: usize, M> {
 
 impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
     /// s, ∇ ln s and ∂ ln s/∂t of all particles, and which wall has which part.
-    fn update(
-        &mut self,
-        world: &mut World<D>,
-        outline: Option<&Outline<D, M>>,
-    ) -> Result<(), StepError> {
+    fn update(&mut self, world: &mut World<D>, outline: Option<&Outline<D, M>>) -> Staged {
         let mut scale = world.free.take(fields::SCALE)?;
         let mut slope = world.free.take(fields::SCALE_SLOPE)?;
         let positions = world.free.get(fields::POSITION)?;
@@ -113,7 +108,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Symmetric<D, M> {
         0.5
     }
 
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>> {
         for spec in setup.walls {
             let why = match spec {
                 WallSpec { open: true, .. } => {

@@ -5,16 +5,14 @@ use std::collections::BTreeMap;
 use sph_core::Vect;
 use sph_neighbours::{WallForce, cross};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::treatment::contact::{DEPTH, SurfacePair, ordered};
 use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, RigidState, Touch};
+use crate::{BoundaryError, Load, Result, RigidState, Touch, WallMesh};
 
 /// Both surfaces of a pair are looked at from the other.
 const SHARE: f64 = 0.5;
 /// Parts per radian of the fastest swing of a body on its contacts: an impact is then right to (1/10)²/8 of its energy.
 const PARTS: f64 = 10.0;
-/// Most parts of a step.
 const MOST_PARTS: f64 = 20_000.0;
 /// Depth to which the weight of all bodies together presses a face into the gap, over the spacing.
 const SINKS: f64 = 0.025;
@@ -22,7 +20,6 @@ const SINKS: f64 = 0.025;
 /// stops a fortieth of the speed that the body's own contacts stop.
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
-/// Contact law of two walls.
 #[derive(Clone, Copy, Debug, Default)]
 struct Law {
     /// k, Pa/m.
@@ -80,7 +77,6 @@ impl Law {
     }
 }
 
-/// All that touches within a step.
 pub(crate) struct Touching<const D: usize> {
     near: Vec<SurfacePair<D>>,
     /// Of the pairs, and the number of that of each piece.
@@ -134,7 +130,6 @@ impl<const D: usize> Touching<D> {
 }
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
-    /// Contacts within a step, if there are any.
     fn touching(&self, gravity: Vect<D>, dt: f64) -> Option<Touching<D>> {
         let touches = self.touches();
         if touches.iter().all(Option::is_none) {
@@ -205,7 +200,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         loads: &mut [Load<D>],
         gravity: Vect<D>,
         [time, dt]: [f64; 2],
-    ) -> Result<Vec<RigidState<D>>, BoundaryError> {
+    ) -> Result<Vec<RigidState<D>>> {
         let Some(mut touching) = self.touching(gravity, dt) else {
             return self.after(&self.states, loads, [time, dt]);
         };

@@ -3,12 +3,11 @@
 use sph_core::{AnyField, StepError, Vect, fields, plugin};
 use sph_neighbours::{WallSet, World};
 
-use crate::geometry::walls::wall_mesh::WallMesh;
 use crate::scale::walls::element_size;
 use crate::treatment::elements::{SetUp, not_built};
 use crate::treatment::impact::LEAST_CLEARANCE;
 use crate::treatment::shaped::shaped_by_outline;
-use crate::{BoundaryError, PlanarWalls, SpatialWalls, Wall, WallEntry, WallSetup, WallStates};
+use crate::{PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallMesh, WallSetup, WallStates};
 
 /// Walls of segments or triangles with vertex particles; sums are renormalised by γ, the share of
 /// the kernel inside the walls, and completed by ∇γ. γ is geometry here (a closed form, no history).
@@ -54,7 +53,6 @@ const ELEMENT: f64 = 2.0;
 const SHARE: f64 = 0.125;
 
 impl<const D: usize, M: WallMesh<D>> Usaw<D, M> {
-    /// Size of elements, m. Faces of a wall in space that keeps its shape hold the state at corners alone.
     fn element_size(&self, setup: &WallSetup<'_, D>) -> f64 {
         let by_element = setup.walls.iter().any(|w| w.open || w.motion.bends());
         match D == 2 || self.vertices || by_element {
@@ -71,7 +69,7 @@ impl<const D: usize, M: WallMesh<D>> Wall<D> for Usaw<D, M> {
         if self.vertices { 0.0 } else { 0.5 }
     }
 
-    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>, BoundaryError> {
+    fn build(&mut self, setup: &WallSetup<'_, D>) -> Result<WallSet<D>> {
         let size = self.element_size(setup);
         let (set_up, walls) = SetUp::build(setup, self.vertices, size)?;
         self.set_up = Some(set_up);

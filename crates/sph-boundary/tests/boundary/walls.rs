@@ -145,10 +145,8 @@ fn crossings_are_named_and_touching_is_allowed() {
     );
     build(&[post.clone(), other.clone()]).unwrap();
     let across = Mesh::<2>::build(&[post, other], 0.5, &channel());
-    assert!(
-        matches!(across, Err(BoundaryError::Crossing { .. })),
-        "{across:?}"
-    );
+    let refused = across.expect_err("they cross").to_string();
+    assert!(refused.contains(" crosses edge "), "{refused}");
 }
 
 #[test]
@@ -272,7 +270,10 @@ fn walls_move_from_their_reference() {
     let gate = thin_plate("gate", &[[1.0, 0.5], [1.0, 1.0]], 0.1).unwrap();
     let mut mesh = build(&[tank, gate]).unwrap();
     let at_rest = mesh.clone();
-    let lifted = Pose::translated([0.0, 0.7]);
+    let lifted = Pose {
+        translation: [0.0, 0.7],
+        ..Pose::default()
+    };
     mesh.move_walls(&[Pose::default(), lifted]).unwrap();
     assert_eq!(mesh.nodes[..16], at_rest.nodes[..16]);
     assert_eq!(
@@ -298,7 +299,10 @@ fn joined_and_periodic_walls_cannot_be_torn() {
     let left = Polyline::open("left", vec![[0.0, 0.0], [2.0, 0.0]]);
     let right = Polyline::open("right", vec![[2.0, 0.0], [4.0, 0.0]]);
     let mut mesh = Mesh::<2>::build(&[left, right], 0.5, &channel()).unwrap();
-    let up = Pose::translated([0.0, 0.1]);
+    let up = Pose {
+        translation: [0.0, 0.1],
+        ..Pose::default()
+    };
     let torn = mesh.move_walls(&[Pose::default(), up]).unwrap_err();
     assert_eq!(
         torn.to_string(),

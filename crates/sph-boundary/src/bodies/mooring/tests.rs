@@ -1,5 +1,6 @@
 use super::*;
 use crate::bodies::catenary::tests::CHAIN;
+use crate::{Polyline, Surface};
 
 #[test]
 fn a_straight_line_pulls_and_never_pushes() {
@@ -53,4 +54,23 @@ fn the_stiffness_of_a_hanging_line_is_the_slope_of_its_force() {
             assert!(off < 1e-6, "({i}, {k}): {off:e}");
         }
     }
+}
+
+#[test]
+fn it_sees_walls_that_it_goes_through() {
+    let way = |from: [f64; 3], to: [f64; 3], wall: &Drawing| crosses(from.into(), to.into(), wall);
+    let wall = Drawing::Line(Polyline::open("w", vec![[1.0, -1.0], [1.0, 1.0]]));
+    assert!(way([0.0, 0.0, 0.0], [2.0, 0.5, 0.0], &wall));
+    assert!(!way([0.0, 0.0, 0.0], [0.9, 0.5, 0.0], &wall));
+    let along = way([1.0, 0.0, 0.0], [2.0, 0.5, 0.0], &wall);
+    assert!(!along, "it may begin at one");
+    let along = way([1.0, 0.0, 0.0], [1.0, 0.5, 0.0], &wall);
+    assert!(!along, "it may lie on one");
+    let wall = Drawing::Surface(Surface {
+        name: "w".into(),
+        points: vec![[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, 0.0, 2.0]],
+        triangles: vec![[0, 1, 2]],
+    });
+    assert!(way([0.0, 0.5, 0.5], [2.0, 0.5, 0.5], &wall));
+    assert!(!way([0.0, 1.5, 1.5], [2.0, 1.5, 1.5], &wall));
 }

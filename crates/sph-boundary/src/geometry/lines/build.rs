@@ -1,14 +1,15 @@
-//! From polylines to segments.
+//! From polylines to segments, and the side of the fluid.
 
 use std::f64::consts::TAU;
 
 use super::joints::{Continuation, Joints, joints};
-use crate::error::BoundaryError;
+use crate::error::{BoundaryError, MOST_PAIRS, Place, Result};
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
-use crate::geometry::mesh::{Element, ElementMeasures, Mesh, Node, SAME_PLACE};
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::{FreeEnd, Polyline, WallEnd};
+use crate::geometry::mesh::{
+    Element, ElementMeasures, Mesh, Node, RayQueries, SAME_HEIGHT, SAME_PLACE, Sides,
+};
 use crate::geometry::vector::{dot, perp, sub};
+use crate::{FreeEnd, PeriodicBox, Polyline, WallEnd};
 
 /// Two segments folded onto each other within this angle leave the fluid all around their node.
 const FOLD: f64 = 1e-9;
@@ -17,14 +18,9 @@ impl Mesh<2> {
     /// Cuts the walls into segments of about `spacing` metres.
     ///
     /// # Errors
-    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with
-    /// the fluid on the other side. A wall that ends freely is not refused here: see
-    /// [`Mesh::check_free_ends`].
-    pub fn build(
-        polylines: &[Polyline],
-        spacing: f64,
-        domain: &PeriodicBox,
-    ) -> Result<Self, BoundaryError> {
+    /// A wall that is degenerate, crosses itself or another one, or meets another end to end with the fluid on the
+    /// other side. A wall that ends freely is not refused here: see [`Mesh::check_free_ends`].
+    pub fn build(polylines: &[Polyline], spacing: f64, domain: &PeriodicBox) -> Result<Self> {
         let names = polylines.iter().map(|line| line.name.clone()).collect();
         let walls: Vec<usize> = (0..polylines.len()).collect();
         Self::of_pieces((polylines, &walls), names, spacing, domain)
@@ -36,14 +32,14 @@ impl Mesh<2> {
         names: Vec<String>,
         spacing: f64,
         domain: &PeriodicBox,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         BoundaryError::check_positive("wall spacing", spacing)?;
         domain.check()?;
         let tolerance = SAME_PLACE * spacing;
         for line in polylines {
             check_points(line)?;
         }
-        check_crossings(polylines, tolerance, domain)?;
+        check_crossings(polylines, tolerance, domain, MOST_PAIRS)?;
         for line in polylines {
             check_area(line, tolerance)?;
         }
@@ -108,7 +104,6 @@ impl Mesh<2> {
         }
     }
 
-    /// Fluid angles of the nodes.
     fn find_angles(&mut self) {
         for (node, beside) in self.nodes.iter_mut().zip(&self.beside) {
             if let [Some(previous), Some(next)] = *beside {
@@ -143,11 +138,7 @@ impl Mesh<2> {
     ///
     /// # Errors
     /// Names the wall, the end and the nearest point. Lengths in metres.
-    pub fn check_free_ends(
-        &self,
-        points: &[[f64; 2]],
-        kernel_radius: f64,
-    ) -> Result<(), BoundaryError> {
+    pub fn check_free_ends(&self, points: &[[f64; 2]], kernel_radius: f64) -> Result<()> {
         for free in &self.free_ends {
             let position = self.nodes[free.node].position;
             let distance = |point: &[f64; 2]| {
@@ -157,27 +148,24 @@ impl Mesh<2> {
             let distances = points.iter().map(distance).enumerate();
             let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((particle, distance)) = nearest.filter(|(_, d)| *d < kernel_radius) {
-                return Err(BoundaryError::FreeEndInReach {
-                    wall: self.walls[free.wall].clone(),
-                    end: free.end,
-                    at: position.into(),
-                    particle,
-                    distance,
-                    radius: kernel_radius,
-                });
+                return Err(BoundaryError(format!(
+                    "the {} end of wall `{}` at {} is free and particle {particle} is {distance} m away, within the \
+                     kernel radius {kernel_radius} m: close the wall or extend it",
+                    free.end,
+                    self.walls[free.wall],
+                    Place::from(position)
+                )));
             }
         }
         Ok(())
     }
 }
 
-/// Number of equal parts of an edge.
 fn parts([a, b]: [[f64; 2]; 2], spacing: f64) -> usize {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]);
     ((length / spacing).round() as usize).max(1)
 }
 
-/// Index of the first node of every piece.
 fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usize> {
     let mut next = 0;
     let first = |(line, after): (&Polyline, &Continuation)| {
@@ -215,4 +203,62 @@ fn fluid_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
         return 1.0;
     }
     0.5 - cross.atan2(dot) / TAU
+}
+
+impl RayQueries<2> for Mesh<2> {
+    fn crossing([a, b]: [[f64; 2]; 2], normal: [f64; 2], along: usize) -> Option<(f64, i32)> {
+        let x = [a[1 - along], b[1 - along]];
+        if (x[0] <= 0.0) == (x[1] <= 0.0) {
+            return None;
+        }
+        let part = x[0] / (x[0] - x[1]);
+        let height = a[along] + part * (b[along] - a[along]);
+        Some((height, if normal[along] < 0.0 { 1 } else { -1 }))
+    }
+
+    fn is_fluid_beyond(&self, along: usize) -> bool {
+        let joined = || {
+            let nodes = self.nodes.iter().zip(&self.beside);
+            nodes.filter_map(|(node, [previous, next])| {
+                Some((node.position[along], (*previous)?, (*next)?))
+            })
+        };
+        let outward = |previous: usize, next: usize| {
+            self.elements[previous].normal[along] + self.elements[next].normal[along]
+        };
+        let top = joined().fold(f64::NEG_INFINITY, |top, (h, ..)| top.max(h));
+        let scale = joined().fold(0.0, |scale: f64, (h, ..)| scale.max(h.abs()));
+        // Both faces of a plate of zero thickness are as high; the upper one decides.
+        let furthest = joined()
+            .filter(|(h, ..)| *h >= top - SAME_HEIGHT * scale)
+            .max_by(|a, b| outward(a.1, a.2).total_cmp(&outward(b.1, b.2)));
+        let Some((_, previous, next)) = furthest else {
+            return true;
+        };
+        let outward = outward(previous, next);
+        if outward != 0.0 {
+            return outward > 0.0;
+        }
+        // A spike: the fluid is outside when it is travelled clockwise or folds back.
+        let [t, u] = [previous, next].map(|s| self.elements[s].tangent());
+        perp(t, u) <= 0.0
+    }
+
+    fn wind(&self, sides: &mut Sides<2>) {
+        if self.free_ends.is_empty() || self.domain.periodic != [false; 2] {
+            return;
+        }
+        let edges = self.elements.chunk_by(|a, b| a.face == b.face);
+        let ends = edges.map(|e| [e[0].nodes[0], e[e.len() - 1].nodes[1]]);
+        sides.lines = ends.collect();
+    }
+
+    fn wound(&self, sides: &Sides<2>, point: [f64; 2]) -> Option<f64> {
+        let angle = |ends: &[usize; 2]| {
+            let [a, b] = ends.map(|v| sub(self.nodes[v].position, point));
+            perp(a, b).atan2(dot(a, b))
+        };
+        let sum: f64 = sides.lines.iter().map(angle).sum();
+        (!sides.lines.is_empty()).then_some(sum / TAU)
+    }
 }

@@ -2,10 +2,9 @@
 
 use sph_core::BoxTree;
 
-use crate::error::{BoundaryError, Place};
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::{Polyline, WallEnd};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::vector::{add, sub, widened};
+use crate::{PeriodicBox, Polyline, WallEnd};
 
 /// Continuation of a wall behind its last point: the first point of a wall, moved by whole periods.
 pub(super) type Continuation = Option<(usize, [i32; 2])>;
@@ -22,34 +21,30 @@ struct OpenEnd {
     position: [f64; 2],
 }
 
-pub(super) fn joints(
-    polylines: &[Polyline],
-    tolerance: f64,
-    domain: &PeriodicBox,
-) -> Result<Joints, BoundaryError> {
+pub(super) fn joints(lines: &[Polyline], tolerance: f64, domain: &PeriodicBox) -> Result<Joints> {
     let alone = |(wall, line): (usize, &Polyline)| line.closed.then_some((wall, [0; 2]));
     let mut joints = Joints {
-        after: polylines.iter().enumerate().map(alone).collect(),
-        starts_free: polylines.iter().map(|line| !line.closed).collect(),
+        after: lines.iter().enumerate().map(alone).collect(),
+        starts_free: lines.iter().map(|line| !line.closed).collect(),
     };
-    let ends = open_ends(polylines);
+    let ends = open_ends(lines);
     let wrapped = |end: &OpenEnd| domain.wrapped(end.position);
     let tree = BoxTree::new(ends.iter().map(|e| [wrapped(e); 2]).collect());
     for (i, end) in ends.iter().enumerate() {
         let met = |j: &usize| {
             let other = &ends[*j];
-            let image = same_place(end.position, other.position, tolerance, domain)?;
-            Some((other, image))
+            let (image, rest) = domain.nearest(sub(end.position, other.position));
+            (rest[0].hypot(rest[1]) <= tolerance).then_some((other, image))
         };
         let mut near = near(&tree, wrapped(end), tolerance, domain);
         near.retain(|j| *j != i);
         let met: Vec<(&OpenEnd, [i32; 2])> = near.iter().filter_map(met).collect();
-        let name = |end: &OpenEnd| &polylines[end.wall].name;
+        let name = |end: &OpenEnd| &lines[end.wall].name;
         let at = Place::from(end.position);
         match met.as_slice() {
             [] => {}
             [(other, _)] if other.end == end.end => {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "the {} end of wall `{}` meets the {} end of wall `{}` at {at}: their directions of travel put the \
                      fluid on opposite sides, reverse one of them",
                     end.end,
@@ -66,7 +61,7 @@ pub(super) fn joints(
             }
             more => {
                 let (count, wall) = (more.len() + 1, name(end));
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "{count} ends of walls meet at {at}, the first of wall `{wall}`: only two can be joined"
                 )));
             }
@@ -104,15 +99,4 @@ fn open_ends(polylines: &[Polyline]) -> Vec<OpenEnd> {
     let open = polylines.iter().enumerate();
     let open = open.filter(|(_, line)| !line.closed);
     open.flat_map(ends).collect()
-}
-
-/// The image of `there` that coincides with `here`, if one does.
-fn same_place(
-    here: [f64; 2],
-    there: [f64; 2],
-    tolerance: f64,
-    domain: &PeriodicBox,
-) -> Option<[i32; 2]> {
-    let (image, rest) = domain.nearest(sub(here, there));
-    (rest[0].hypot(rest[1]) <= tolerance).then_some(image)
 }

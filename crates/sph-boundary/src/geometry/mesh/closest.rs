@@ -1,7 +1,7 @@
 //! The place of an element nearest to a point; distance and side of a place from a few elements.
 
 use super::elements::Mesh;
-use super::near_element::NearElement;
+use super::grid::NearElement;
 use crate::geometry::vector::{along, dot, norm, sub};
 
 /// The nearest part of an element.
@@ -72,7 +72,6 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-/// The place of an element nearest to the origin.
 #[inline]
 pub(crate) fn nearest_to_origin<const D: usize>(corners: &[[f64; D]; D]) -> ([f64; D], Feature) {
     match corners[..] {
@@ -133,9 +132,8 @@ pub(crate) fn angle<const D: usize>(corners: &[[f64; D]; D], k: usize) -> f64 {
 }
 
 impl<const D: usize> SeenElement<D> {
-    /// Distance of the nearest of some elements from a place, m, positive on its fluid's side;
-    /// `None` if none of them is nearer than `within`. The place is relative to the point that they
-    /// are seen from.
+    /// Distance of the nearest of some elements from a place, m, positive on its fluid's side; `None` if none of them
+    /// is nearer than `within`. The place is relative to the point that they are seen from.
     pub fn signed_distance(seen: &[Self], place: [f64; D], within: f64) -> Option<f64> {
         let (mut distance, mut height) = (f64::INFINITY, 0.0_f64);
         for element in seen {

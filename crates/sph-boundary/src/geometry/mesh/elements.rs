@@ -4,13 +4,9 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::near_element::NearElement;
-use super::sides::Sides;
-use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::polyline::FreeEnd;
+use super::grid::{NearElement, Sides};
 use crate::geometry::vector::{Point, add, sub};
-use crate::rigid::motion::RigidMotion;
-use crate::rigid::pose::Pose;
+use crate::{FreeEnd, PeriodicBox, Pose, RigidMotion};
 
 /// A node of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,8 +79,7 @@ pub struct Face {
     pub wall: usize,
     /// Unit normal, into the fluid.
     pub normal: [f64; 3],
-    /// Edges as drawn, not cut at the spacing; the face is on their left seen from the tip of the
-    /// normal.
+    /// Edges as drawn, not cut at the spacing; the face is on their left seen from the tip of the normal.
     pub edges: Vec<FaceEdge>,
 }
 
@@ -123,12 +118,11 @@ pub struct Opening {
 /// zero thickness therefore has two coincident nodes along it, one per side, each with the fluid angle of its own side.
 /// Walls may touch (a block on a floor, a corner on an edge) but not cross.
 ///
-/// From surfaces triangles of a wall that lie in one plane become one face. The edges of the faces are cut into
-/// equal parts, alike for all faces that share them, also between walls of one group and across
-/// periodic sides, where nodes are merged. Inside a face are points of a square lattice along its
-/// longest edge; a rectangle of whole spacings gets exactly the lattice of the spacing. Where walls
-/// of one group touch face to face, the common part is left out of both, so that the mesh
-/// is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
+/// From surfaces triangles of a wall that lie in one plane become one face. The edges of the faces are cut into equal
+/// parts, alike for all faces that share them, also between walls of one group and across periodic sides, where nodes
+/// are merged. Inside a face are points of a square lattice along its longest edge; a rectangle of whole spacings gets
+/// exactly the lattice of the spacing. Where walls of one group touch face to face, the common part is left out of
+/// both, so that the mesh is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
 #[derive(Clone, Debug)]
 pub struct Mesh<const D: usize> {
     /// Names of the walls, in the order given.
@@ -169,7 +163,6 @@ pub struct Mesh<const D: usize> {
 }
 
 impl<const D: usize> Mesh<D> {
-    /// Walls without an element.
     pub(crate) fn empty(
         walls: Vec<String>,
         groups: &[usize],
@@ -206,9 +199,8 @@ impl<const D: usize> Mesh<D> {
 
     /// Corners of an image of an element relative to a point, m.
     ///
-    /// Made from the node's own position and the whole number of periods to it, so that all
-    /// elements and faces at a node see bitwise the same vector, as
-    /// [`Renormalisation2d::segment`](crate::Renormalisation2d::segment) asks.
+    /// Made from the node's own position and the whole number of periods to it, so that all elements and faces at a
+    /// node see bitwise the same vector, as [`Renormalisation2d::segment`](crate::Renormalisation2d::segment) asks.
     #[inline]
     pub fn corners_from(&self, point: [f64; D], near: NearElement<D>) -> [[f64; D]; D] {
         let Element { nodes, images, .. } = &self.elements[near.index()];
@@ -216,7 +208,7 @@ impl<const D: usize> Mesh<D> {
     }
 
     #[inline]
-    fn node_from(&self, point: [f64; D], node: usize, image: [i32; D]) -> [f64; D] {
+    pub(crate) fn node_from(&self, point: [f64; D], node: usize, image: [i32; D]) -> [f64; D] {
         let from = sub(self.nodes[node].position, point);
         if image == [0; D] {
             return from;
@@ -226,12 +218,7 @@ impl<const D: usize> Mesh<D> {
 }
 
 impl Mesh<3> {
-    pub(crate) fn node_at(&self, node: usize, image: [i32; 3]) -> Point {
-        self.node_from([0.0; 3], node, image)
-    }
-
-    /// Edges of an image of a face relative to a point, m; bitwise the same vectors as
-    /// [`Mesh::corners_from`] gives.
+    /// Edges of an image of a face relative to a point, m; bitwise the same vectors as [`Mesh::corners_from`] gives.
     pub fn face_edges_from(
         &self,
         point: Point,

@@ -1,15 +1,49 @@
-//! Elements sorted by cells.
+//! Elements sorted by cells, and data that give the sides of a mesh.
 
-use super::near_element::NearElement;
+use sph_core::{BoxTree, Winding};
+
 use crate::geometry::cells::{index, listed};
 use crate::geometry::vector::{bounds, dot, sub};
 
+/// An element and the whole periods to add to its position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NearElement<const D: usize> {
+    /// Index of the element.
+    pub element: u32,
+    /// Whole periods.
+    pub image: [i8; D],
+}
+
+/// Elements near several points, each point's behind those of the one before.
+#[derive(Clone, Debug, Default)]
+pub struct NearRows<const D: usize> {
+    /// Number of elements of every point.
+    pub counts: Vec<u32>,
+    /// All of them.
+    pub elements: Vec<NearElement<D>>,
+}
+
+impl<const D: usize> NearElement<D> {
+    /// Of an image that a byte can count; others are of a wall drawn far outside the box.
+    pub(crate) fn new(element: usize, image: [i32; D]) -> Option<Self> {
+        let image = image.map(i8::try_from);
+        let counted = image.iter().all(Result::is_ok);
+        counted.then(|| NearElement {
+            element: element as u32,
+            image: image.map(Result::unwrap_or_default),
+        })
+    }
+
+    /// Index of the element.
+    pub fn index(self) -> usize {
+        self.element as usize
+    }
+}
+
 /// Most cells per registered element: a grid over a vast empty box is made coarser.
 const CELLS_PER_ENTRY: usize = 8;
-
 /// Size of a cell over the reach.
 const PART_OF_REACH: f64 = 0.5;
-
 /// Rounding of a squared distance, relative.
 pub(super) const ROUNDING: f64 = 1e-9;
 
@@ -124,4 +158,37 @@ impl<const D: usize> Grid<D> {
         }
         Some(range)
     }
+}
+
+/// Data of a mesh for the side of a point, at the present position.
+#[derive(Clone, Debug)]
+pub struct Sides<const D: usize> {
+    /// Along one axis; if all are periodic, along each, and the last one goes through an element.
+    pub(super) rays: Vec<Rays<D>>,
+    /// The centre of that element, m.
+    pub(super) target: [f64; D],
+    /// True if the fluid lies beyond all walls.
+    pub(super) beyond: bool,
+    /// The search for the nearest wall, where there are free edges.
+    pub(super) front: Option<Grid<D>>,
+    /// Of the plane, where walls end freely: first and last node of every straight edge.
+    pub(crate) lines: Vec<[usize; 2]>,
+    /// Of space, where walls end freely: how they wind around a place; of the other sign, since normals point into the
+    /// fluid.
+    pub(crate) winding: Option<Winding>,
+}
+
+/// Elements and their images over the box, seen along an axis.
+#[derive(Clone, Debug)]
+pub(crate) struct Rays<const D: usize> {
+    pub along: usize,
+    pub entries: Vec<NearElement<D>>,
+    /// Of their boxes, flat across the axis.
+    pub tree: BoxTree<D>,
+}
+
+/// A place without its coordinate along an axis.
+pub(super) fn flattened<const D: usize>(mut x: [f64; D], along: usize) -> [f64; D] {
+    x[along] = 0.0;
+    x
 }

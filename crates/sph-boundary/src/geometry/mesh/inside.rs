@@ -1,24 +1,20 @@
 //! On which side of the walls a point is.
 
+use sph_core::BoxTree;
+
 use super::closest::{Feature, angle, nearest_to_origin};
 use super::elements::Mesh;
-use super::grid::Grid;
-use super::near_element::NearElement;
-use super::sides::{Rays, Sides, flattened};
+use super::grid::{Grid, NearElement, Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
 pub(crate) const SAME_HEIGHT: f64 = 1e-12;
-
 /// Places whose distances differ by less than this part are equally near.
 pub(crate) const SAME_DISTANCE: f64 = 1e-9;
-
 /// Spacings within which the nearest wall decides if there are free edges.
 const FRONT: f64 = 4.0;
-
 /// Part of the spacing that rounding may move the rim of an element.
 const RIM: f64 = 1e-9;
-
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
 
@@ -109,21 +105,27 @@ where
         })
     }
 
-    /// The elements and their images over the box, seen along an axis.
     fn rays(&self, along: usize) -> Rays<D> {
         let flat = |x: [f64; D]| flattened(x, along);
         let rim = RIM * self.spacing;
         let around = widened([self.domain.lower, self.domain.upper], rim).map(flat);
-        let mut images = Vec::new();
+        let (mut entries, mut boxes) = (Vec::new(), Vec::new());
         for e in 0..self.elements.len() {
             let own = bounds(self.corners(e).map(flat));
             for image in self.domain.images_within(around, own) {
                 let shift = self.domain.shift(image);
                 let moved = own.map(|x| std::array::from_fn(|k| x[k] + shift[k]));
-                images.extend(NearElement::new(e, image).map(|near| (near, moved)));
+                if let Some(near) = NearElement::new(e, image) {
+                    entries.push(near);
+                    boxes.push(moved);
+                }
             }
         }
-        Rays::new(along, images, rim)
+        Rays {
+            along,
+            entries,
+            tree: BoxTree::new(boxes),
+        }
     }
 
     /// True if the first wall that a ray meets faces the point; none if it meets nothing.
@@ -146,7 +148,9 @@ where
 
     fn crossings(&self, rays: &Rays<D>, point: [f64; D]) -> Vec<(f64, i32)> {
         let (along, mut crossings) = (rays.along, Vec::new());
-        rays.each(point, |near| {
+        let around = widened([flattened(point, along); 2], RIM * self.spacing);
+        rays.tree.each(around, |n| {
+            let near = rays.entries[n];
             let corners = self.corners_from(point, near);
             let normal = self.elements[near.index()].normal;
             let Some((mut height, facing)) = Self::crossing(corners, normal, along) else {

@@ -5,17 +5,14 @@ use std::collections::HashMap;
 use sph_core::bed::Bed;
 
 use super::elements::Mesh;
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::rigid::pose::Pose;
 
-/// The bed that a wall follows.
 pub(crate) fn bed_of(beds: &[Bed], wall: usize) -> Option<&Bed> {
     beds.iter().find(|bed| bed.walls.contains(&(wall as u32)))
 }
 
-/// Measures of the elements of a mesh.
 pub trait ElementMeasures {
-    /// Measure, centre and normal of an element from the positions of its nodes.
     fn measure(&mut self, element: usize);
     /// Changes of nodes and faces by walls that moved.
     fn follow(&mut self, moved: &[bool]);
@@ -33,7 +30,7 @@ where
     /// # Errors
     /// A number of poses other than that of the walls, two walls that are joined or of one group with different poses, or
     /// the rotation of a wall that is closed through periodicity; the mesh is then left as it was.
-    pub fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
+    pub fn move_walls(&mut self, poses: &[Pose<D>]) -> Result<()> {
         self.check_poses(poses)?;
         let both = self.poses.iter().zip(poses);
         let moved: Vec<bool> = both.map(|(old, new)| old != new).collect();
@@ -60,11 +57,11 @@ where
         Ok(())
     }
 
-    fn check_poses(&self, poses: &[Pose<D>]) -> Result<(), BoundaryError> {
+    fn check_poses(&self, poses: &[Pose<D>]) -> Result<()> {
         if poses.len() != self.walls.len() {
             let (given, walls) = (poses.len(), self.walls.len());
             let why = format!("{given} pose(s) given for {walls} wall(s)");
-            return Err(BoundaryError::Refused(why));
+            return Err(BoundaryError(why));
         }
         let name = |wall: usize| &self.walls[wall];
         let mut firsts = HashMap::new();
@@ -72,7 +69,7 @@ where
             let first = *firsts.entry(group).or_insert(wall);
             if poses[first] != poses[wall] {
                 let (wall, other) = (name(first), name(wall));
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "walls `{wall}` and `{other}` move together and cannot be given different motions"
                 )));
             }
@@ -81,7 +78,7 @@ where
             let (wall, pose) = (element.wall, &poses[element.wall]);
             let other = |node: &&usize| poses[self.nodes[**node].wall] != *pose;
             if let Some(&joint) = element.nodes.iter().find(other) {
-                return Err(BoundaryError::Refused(format!(
+                return Err(BoundaryError(format!(
                     "walls `{}` and `{}` are joined at {} and cannot move differently",
                     name(wall),
                     name(self.nodes[joint].wall),

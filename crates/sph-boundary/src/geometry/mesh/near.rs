@@ -2,14 +2,12 @@
 
 use super::closest::nearest_to_origin;
 use super::elements::Mesh;
-use super::grid::{Grid, ROUNDING, Sphere};
-use super::near_element::NearElement;
+use super::grid::{Grid, NearElement, NearRows, ROUNDING, Sphere};
 use crate::geometry::vector::{add, bounds, dot, norm, sub};
 
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;
 
-/// Elements that may be near one of several points.
 #[derive(Default)]
 struct Candidates<const D: usize> {
     /// By image and element.
@@ -76,18 +74,12 @@ impl<const D: usize> Grid<D> {
         found.into_iter()
     }
 
-    /// For every point the images of elements that may be nearer than `radius`, because the spheres around them are: their
-    /// number, and all of them one behind the other, each point's by image and element. `radius` at most the reach of the grid.
+    /// Appends for every point the images of elements that may be nearer than `radius`, because the spheres around them
+    /// are, by image and element; `radius` at most the reach of the grid.
     ///
     /// The grid is walked once, and its contents are sorted once, for neighbouring points that follow one another; each
     /// takes what is in its own reach.
-    pub fn rows(
-        &self,
-        points: &[[f64; D]],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<D>>,
-    ) {
+    pub fn rows(&self, points: &[[f64; D]], radius: f64, rows: &mut NearRows<D>) {
         debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
         let mut candidates = Candidates::default();
         let mut rest = points;
@@ -96,7 +88,7 @@ impl<const D: usize> Grid<D> {
             rest = after;
             self.gather(group, radius, &mut candidates);
             for point in group {
-                counts.push(candidates.reached(*point, radius, rows));
+                candidates.add_reached(*point, radius, rows);
             }
         }
     }
@@ -124,17 +116,17 @@ impl<const D: usize> Grid<D> {
 }
 
 impl<const D: usize> Candidates<D> {
-    /// Appends those in reach of a point; how many.
-    fn reached(&self, point: [f64; D], radius: f64, rows: &mut Vec<NearElement<D>>) -> u32 {
-        let from = rows.len();
-        rows.extend_from_slice(&self.found);
-        let (slots, mut n) = (&mut rows[from..], 0);
+    fn add_reached(&self, point: [f64; D], radius: f64, rows: &mut NearRows<D>) {
+        let (elements, mut n) = (&mut rows.elements, 0);
+        let from = elements.len();
+        elements.extend_from_slice(&self.found);
+        let slots = &mut elements[from..];
         for (near, sphere) in self.found.iter().zip(&self.spheres) {
             slots[n] = *near;
             n += usize::from(sphere.within(point, radius).is_some());
         }
-        rows.truncate(from + n);
-        n as u32
+        elements.truncate(from + n);
+        rows.counts.push(n as u32);
     }
 }
 

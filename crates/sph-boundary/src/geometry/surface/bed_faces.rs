@@ -110,7 +110,6 @@ impl Mesh<3> {
     }
 }
 
-/// The edges of a triangle.
 fn sides(triangle: &Element<3>) -> impl Iterator<Item = FaceEdge> + '_ {
     (0..3).map(|k| {
         let ends = [k, (k + 1) % 3];

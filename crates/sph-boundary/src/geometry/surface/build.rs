@@ -1,4 +1,6 @@
-//! From surfaces to the mesh.
+//! From surfaces to the mesh, and the side of the fluid.
+
+use sph_core::Winding;
 
 use super::crossing::contacts;
 use super::drawn::{
@@ -8,13 +10,15 @@ use super::edges::{Cuts, Nodes, free_pieces};
 use super::fill::{Corner, Filling, fill};
 use super::patches::{Patch, patches};
 use super::places::{Places, Site};
-use super::removal::remove_contacts;
-use super::wetted::{FaceContacts, wetted_pieces};
-use crate::error::{BoundaryError, Place};
+use super::wetted::{FaceContacts, remove_contacts, wetted_pieces};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::unseen;
-use crate::geometry::mesh::{Element, ElementMeasures, Face, FaceEdge, Mesh, Node, SAME_PLACE};
+use crate::geometry::mesh::{
+    Element, ElementMeasures, Face, FaceEdge, Mesh, Node, RayQueries, SAME_DISTANCE, SAME_HEIGHT,
+    SAME_PLACE, Sides, angle,
+};
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::vector::{double_area, norm};
+use crate::geometry::vector::{Point, add, bounds, double_area, norm, sub};
 use crate::parallel::*;
 
 /// Elements with shorter sides than this part of the spacing are fine.
@@ -35,41 +39,41 @@ impl Mesh<3> {
         groups: &[usize],
         spacing: f64,
         domain: &PeriodicBox<3>,
-    ) -> Result<Self, BoundaryError> {
+    ) -> Result<Self> {
         BoundaryError::check_positive("wall spacing", spacing)?;
         domain.check()?;
         if groups.len() != surfaces.len() {
             let (given, walls) = (groups.len(), surfaces.len());
             let why = format!("{given} group(s) given for {walls} wall(s)");
-            return Err(BoundaryError::Refused(why));
+            return Err(BoundaryError(why));
         }
         let tolerance = SAME_PLACE * spacing;
         let mut places = Places::new(tolerance, domain);
         let (mut patches, touched) = planar_pieces(surfaces, groups, spacing, &mut places)?;
         let cuts = Cuts::new(&patches, &places, spacing);
-        let seen = wetted_pieces(&patches, &cuts, &places, &touched);
+        let seen = wetted_pieces(&patches, &cuts, &touched);
         let unseen = unseen_faces(surfaces, &patches, &seen);
         let mut kept = seen.iter();
         patches.retain(|_| kept.next() == Some(&true));
         let covered = |(wall, _): &(usize, &Surface)| !patches.iter().any(|p| p.wall == *wall);
         if let Some((_, surface)) = surfaces.iter().enumerate().find(covered) {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "nothing is left of wall `{}`: other walls cover all of it, or face away from its edges: turn the one \
                  that faces the other way, leave the wall out, or give a plate of two sides a thickness",
                 surface.name
             )));
         }
-        let free = free_pieces(surfaces, &patches, &cuts, &places)?;
+        let free = free_pieces(surfaces, &patches, &cuts)?;
 
         let mut nodes = Nodes::default();
         let mut sides = Vec::with_capacity(patches.len());
         for patch in &patches {
             let edges = patch.boundary.iter();
-            let nodes = edges.map(|e| cuts.nodes(*e, &places, &mut nodes, patch.wall, spacing));
+            let nodes = edges.map(|e| cuts.nodes(*e, &mut nodes, patch.wall));
             sides.push(nodes.collect::<Vec<_>>());
         }
         let position = |node: u32| nodes.positions[node as usize];
-        let both = patches.par_iter().zip(&sides);
+        let both = patches.as_slice().into_par_iter().zip(&sides);
         let filled = both.map(|(patch, sides)| fill(patch, sides, &position, domain, spacing));
         let filled: Vec<Result<Filling, String>> = filled.collect();
 
@@ -81,7 +85,7 @@ impl Mesh<3> {
         for (patch, filling) in patches.iter().zip(filled) {
             let filling = filling.map_err(|reason| {
                 let (wall, at) = (&surfaces[patch.wall].name, places.at(patch.boundary[0][0]));
-                BoundaryError::Refused(format!(
+                BoundaryError(format!(
                     "the planar piece of wall `{wall}` at {} cannot be cut into triangles: {reason}",
                     Place::from(at)
                 ))
@@ -127,10 +131,7 @@ impl Mesh<3> {
         // A piece drawn in another image has its own nodes where it is drawn.
         let site = |c: Corner| match c {
             Corner::Edge(site) => site,
-            Corner::Inside(k) => Site {
-                id: first + k,
-                image: [0; 3],
-            },
+            Corner::Inside(k) => Site::unmoved(first + k),
         };
         for corners in filling.triangles {
             let sites = corners.map(site);
@@ -146,7 +147,7 @@ impl Mesh<3> {
         }
     }
 
-    fn check_count(&self) -> Result<(), BoundaryError> {
+    fn check_count(&self) -> Result<()> {
         let count = |wall: usize| self.elements.iter().filter(|t| t.wall == wall).count() as u64;
         let estimate = self.elements.len() as u64;
         if estimate <= MOST_ELEMENTS {
@@ -177,7 +178,6 @@ impl Mesh<3> {
     }
 }
 
-/// A remark for every wall with faces that bound no fluid.
 fn unseen_faces(surfaces: &[Surface], pieces: &[Patch], seen: &[bool]) -> Vec<String> {
     let remark = |(wall, surface): (usize, &Surface)| {
         let all = pieces.iter().zip(seen);
@@ -193,7 +193,7 @@ fn planar_pieces(
     groups: &[usize],
     spacing: f64,
     places: &mut Places,
-) -> Result<(Vec<Patch>, FaceContacts), BoundaryError> {
+) -> Result<(Vec<Patch>, FaceContacts)> {
     let tolerance = SAME_PLACE * spacing;
     for surface in surfaces {
         check_input(surface)?;
@@ -211,8 +211,8 @@ fn planar_pieces(
         drawn.extend(own);
     }
     let domain = places.domain;
-    let contacts = contacts(surfaces, groups, &drawn, tolerance, &domain)?;
-    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places, groups);
+    let contacts = contacts(surfaces, &drawn, tolerance, &domain)?;
+    let touched = remove_contacts(&mut pieces, &piece_of, &contacts, places);
     for piece in &mut pieces {
         piece.straighten(places, tolerance);
     }
@@ -249,4 +249,90 @@ impl ElementMeasures for Mesh<3> {
             }
         }
     }
+}
+
+/// Images of a periodic wall on either side reach this many extents of it, and are so many at most.
+const IMAGES: (f64, f64) = (5.0, 16.0);
+
+impl RayQueries<3> for Mesh<3> {
+    /// Seen along the ray, the point is within a triangle if it is on the left of all edges or on the right of all.
+    /// Both triangles at an edge compute the same number but for its sign, and a point on an edge counts as moved by an
+    /// infinitely small step, so that a ray through an edge or a node meets a closed surface as often as one beside it.
+    fn crossing(corners: [Point; 3], _: Point, along: usize) -> Option<(f64, i32)> {
+        let [u, v] = [(along + 1) % 3, (along + 2) % 3];
+        let side = |i: usize| {
+            let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            let area = a[u] * b[v] - a[v] * b[u];
+            let upwards = b[v] > a[v] || (b[v] == a[v] && b[u] < a[u]);
+            (area, area > 0.0 || (area == 0.0 && upwards))
+        };
+        let [ab, bc, ca] = [side(0), side(1), side(2)];
+        let sum = ab.0 + bc.0 + ca.0;
+        if ab.1 != bc.1 || bc.1 != ca.1 || sum == 0.0 {
+            return None;
+        }
+        let heights = corners.map(|c| c[along]);
+        let height = (bc.0 * heights[0] + ca.0 * heights[1] + ab.0 * heights[2]) / sum;
+        Some((height, if ab.1 { -1 } else { 1 }))
+    }
+
+    fn is_fluid_beyond(&self, along: usize) -> bool {
+        let mut free = vec![false; self.nodes.len()];
+        for node in self.free_edges.iter().flat_map(|e| e.nodes) {
+            free[node] = true;
+        }
+        let heights = || {
+            let nodes = self.nodes.iter().zip(&free).filter(|(_, free)| !**free);
+            nodes.map(|(node, _)| node.position[along])
+        };
+        let top = heights().fold(f64::NEG_INFINITY, f64::max);
+        let scale = heights().fold(0.0, |scale: f64, h| scale.max(h.abs()));
+        let mut outward: std::collections::BTreeMap<usize, f64> = Default::default();
+        for (e, element) in self.elements.iter().enumerate() {
+            for (corner, node) in element.nodes.iter().enumerate() {
+                let height = self.nodes[*node].position[along];
+                if !free[*node] && height >= top - SAME_HEIGHT * scale {
+                    let weight = angle(&self.corners(e), corner);
+                    *outward.entry(*node).or_default() += weight * element.normal[along];
+                }
+            }
+        }
+        outward.values().all(|up| *up >= -SAME_DISTANCE)
+    }
+
+    fn wind(&self, sides: &mut Sides<3>) {
+        sides.winding = winding(self);
+    }
+
+    fn wound(&self, sides: &Sides<3>, point: Point) -> Option<f64> {
+        sides.winding.as_ref().map(|winding| -winding.at(&point))
+    }
+}
+
+/// Of the faces, each a fan over its edges, and of their images where one axis is periodic.
+fn winding(mesh: &Mesh<3>) -> Option<Winding> {
+    let periodic = mesh.domain.periodic;
+    if mesh.free_edges.is_empty() || periodic.iter().filter(|p| **p).count() > 1 {
+        return None;
+    }
+    let ends = (0..mesh.faces.len()).map(|f| mesh.face_edges_from([0.0; 3], f, [0; 3]));
+    let faces: Vec<Vec<[Point; 2]>> = ends.map(Iterator::collect).collect();
+    let fan = |edges: &Vec<[Point; 2]>| {
+        let apex = edges[0][0];
+        let others = edges.iter().filter(move |[a, b]| *a != apex && *b != apex);
+        others.map(move |[a, b]| [apex, *a, *b]).collect::<Vec<_>>()
+    };
+    let own: Vec<[Point; 3]> = faces.iter().flat_map(fan).collect();
+    let Some(axis) = (0..3).find(|k| periodic[*k]) else {
+        return Some(Winding::new(own));
+    };
+    let [low, high] = bounds(own.iter().flatten().copied());
+    let images = IMAGES.0 * norm(sub(high, low)) / mesh.domain.periods()[axis];
+    let images = images.ceil().min(IMAGES.1) as i32;
+    let all = (-images..=images).flat_map(|n| {
+        let image = std::array::from_fn(|k| if k == axis { n } else { 0 });
+        let shift = mesh.domain.shift(image);
+        own.iter().map(move |t| t.map(|p| add(p, shift)))
+    });
+    Some(Winding::new(all.collect()))
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use sph_core::BoxTree;
 
 use super::drawn::{Drawn, Surface, no_thickness};
-use crate::error::{BoundaryError, MOST_PAIRS, Place};
+use crate::error::{BoundaryError, MOST_PAIRS, Place, Result};
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, along, bounds, cross, dot, norm, sub, unit};
 use crate::parallel::*;
@@ -20,14 +20,14 @@ pub(super) struct Contact {
     pub image: [i32; 3],
 }
 
-/// Intersection of two triangles.
 enum Intersection {
-    /// They are apart or touch.
     Apart,
-    /// They cross near a place.
     Cross(Point),
     /// They lie in one plane and cover each other, with equal or opposite normals.
-    Cover { opposite: bool, at: Point },
+    Cover {
+        opposite: bool,
+        at: Point,
+    },
 }
 
 /// Contacts of walls face to face; refuses triangles that cross and pieces drawn twice.
@@ -36,16 +36,15 @@ enum Intersection {
 /// the other triangle's plane is on it.
 pub(super) fn contacts(
     surfaces: &[Surface],
-    groups: &[usize],
     drawn: &[Drawn],
     tolerance: f64,
     domain: &PeriodicBox<3>,
-) -> Result<Vec<Contact>, BoundaryError> {
+) -> Result<Vec<Contact>> {
     let boxes: Vec<_> = drawn.iter().map(|d| bounds(d.places)).collect();
     let tree = BoxTree::new(boxes.clone());
     let pairs = AtomicUsize::new(0);
     // Triangle `t`, moved, against all others; every pair of images comes up once.
-    let about = |t: usize| -> Result<Vec<Contact>, BoundaryError> {
+    let about = |t: usize| -> Result<Vec<Contact>> {
         let mut found = Vec::new();
         let images = domain.images_within(tree.bounds(), boxes[t]);
         for image in images.filter(|image| *image >= [0; 3]) {
@@ -61,9 +60,8 @@ pub(super) fn contacts(
                 }
             });
             if whole.is_break() {
-                let wall = surfaces[drawn[t].wall].name.clone();
-                let what = "triangles";
-                return Err(BoundaryError::Tangled { what, wall });
+                let wall = &surfaces[drawn[t].wall].name;
+                return Err(BoundaryError::tangled("triangles", wall));
             }
         }
         found.sort_unstable();
@@ -71,7 +69,7 @@ pub(super) fn contacts(
         for (other, image) in found {
             let both = [&drawn[t], &drawn[other]];
             let shift = domain.shift(image);
-            if touch(surfaces, groups, both, shift, tolerance)? {
+            if touch(surfaces, both, shift, tolerance)? {
                 contacts.push(Contact {
                     triangle: t as u32,
                     other: other as u32,
@@ -98,35 +96,21 @@ pub(super) fn contacts(
 ///
 /// # Errors
 /// If they cross, or one covers the other where it must not.
-fn touch(
-    surfaces: &[Surface],
-    groups: &[usize],
-    [a, b]: [&Drawn; 2],
-    shift: Point,
-    tolerance: f64,
-) -> Result<bool, BoundaryError> {
+fn touch(surfaces: &[Surface], [a, b]: [&Drawn; 2], shift: Point, tolerance: f64) -> Result<bool> {
     let moved = a.places.map(|p| add(p, shift));
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
-    let together = groups[a.wall] == groups[b.wall];
-    let names = || [a, b].map(|d| surfaces[d.wall].name.clone());
+    let together = a.group == b.group;
     match meeting {
         Intersection::Cross(at) => {
-            let [wall, other] = names();
-            Err(BoundaryError::Crossing {
-                wall,
-                what: "triangle",
-                number: a.index,
-                other,
-                other_number: b.index,
-                at: at.into(),
-            })
+            let both = [a, b].map(|d| (&surfaces[d.wall].name[..], d.index));
+            Err(BoundaryError::crossing("triangle", both, at))
         }
         Intersection::Cover {
             opposite: false,
             at,
         } if together => {
-            let ([wall, other], at) = (names(), Place::from(at));
-            Err(BoundaryError::Refused(format!(
+            let ([wall, other], at) = ([a, b].map(|d| &surfaces[d.wall].name), Place::from(at));
+            Err(BoundaryError(format!(
                 "triangle {} of wall `{wall}` and triangle {} of wall `{other}` cover each other near {at}: that piece \
                  is drawn twice",
                 a.index, b.index

@@ -1,20 +1,18 @@
 //! Surfaces as drawn, and their triangles with the corners welded.
 
 use super::places::{HalfEdge, Places, Site, half_edges};
-use crate::error::{BoundaryError, Place};
+use crate::Polyline;
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::check_finite;
 use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
 use crate::parallel::*;
 
 /// Area over longest edge squared below which a triangle has none.
 const NO_AREA: f64 = 1e-9;
-
 /// Altitude over longest edge below which a triangle is a needle.
 const NEEDLE: f64 = 1e-6;
-
 /// Surfaces smaller than this many spacings are refused.
 const SMALLEST: f64 = 2.0;
-
 /// Most triangles of all walls together.
 pub(super) const MOST_ELEMENTS: u64 = 20_000_000;
 
@@ -25,8 +23,7 @@ pub struct Surface {
     pub name: String,
     /// Points, m.
     pub points: Vec<[f64; 3]>,
-    /// Corners of the triangles among the points; the normal by the right-hand rule points into
-    /// the fluid.
+    /// Corners of the triangles among the points; the normal by the right-hand rule points into the fluid.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -40,9 +37,40 @@ impl Surface {
     }
 }
 
-/// A triangle as drawn.
+/// Geometry of a wall.
+#[derive(Clone, Debug)]
+pub enum Drawing {
+    /// In two dimensions.
+    Line(Polyline),
+    /// In three dimensions.
+    Surface(Surface),
+}
+
+impl Drawing {
+    /// Name of the wall.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Line(line) => &line.name,
+            Self::Surface(surface) => &surface.name,
+        }
+    }
+
+    /// Its points, with a given number of coordinates, m.
+    pub fn points<const D: usize>(&self) -> Vec<[f64; D]> {
+        match self {
+            Self::Line(line) => line.points.iter().map(cut).collect(),
+            Self::Surface(surface) => surface.points.iter().map(cut).collect(),
+        }
+    }
+}
+
+fn cut<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
+    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
+}
+
 pub(super) struct Drawn {
     pub wall: usize,
+    pub group: usize,
     /// Its number in the wall.
     pub index: usize,
     pub corners: [Site; 3],
@@ -52,7 +80,7 @@ pub(super) struct Drawn {
 }
 
 /// Coordinates that are not finite and corners that do not exist.
-pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
+pub(super) fn check_input(surface: &Surface) -> Result<()> {
     if surface.triangles.is_empty() {
         return Err(BoundaryError::unfit(&surface.name, "has no triangle"));
     }
@@ -69,7 +97,7 @@ pub(super) fn check_input(surface: &Surface) -> Result<(), BoundaryError> {
 }
 
 /// Surfaces of the size of a particle and walls of too many elements.
-pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), BoundaryError> {
+pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<()> {
     let mut needs = Vec::with_capacity(surfaces.len());
     for surface in surfaces {
         let corners = |t: &[u32; 3]| t.map(|c| surface.points[c as usize]);
@@ -97,9 +125,8 @@ pub(super) fn check_extent(surfaces: &[Surface], spacing: f64) -> Result<(), Bou
     }
 }
 
-/// Walls of more elements than can be meant, and the one that has most.
 pub(super) fn too_many(wall: &str, own: u64, estimate: u64) -> BoundaryError {
-    BoundaryError::Refused(format!(
+    BoundaryError(format!(
         "the walls would be cut into about {estimate} triangles, {MOST_ELEMENTS} at most: `{wall}` alone needs {own}; \
          check the unit of length or use a coarser spacing"
     ))
@@ -111,19 +138,15 @@ pub(super) fn weld(
     wall: usize,
     group: usize,
     places: &mut Places,
-) -> Result<Vec<Drawn>, BoundaryError> {
+) -> Result<Vec<Drawn>> {
     // In the order of the points: the first of those at one place sets the place of its node.
     let mut used = vec![false; surface.points.len()];
     for corner in surface.triangles.iter().flatten() {
         used[*corner as usize] = true;
     }
-    let nowhere = Site {
-        id: u32::MAX,
-        image: [0; 3],
-    };
     let site = |(point, used): (&Point, bool)| match used {
         true => places.find(*point, group),
-        false => nowhere,
+        false => Site::unmoved(u32::MAX),
     };
     let sites: Vec<Site> = surface.points.iter().zip(used).map(site).collect();
     let mut drawn = Vec::with_capacity(surface.triangles.len());
@@ -150,6 +173,7 @@ pub(super) fn weld(
         }
         drawn.push(Drawn {
             wall,
+            group,
             index,
             corners,
             places: at,
@@ -164,11 +188,7 @@ pub(super) fn weld(
 pub(super) type Neighbours = Vec<[Option<u32>; 3]>;
 
 /// Refuses triangles given twice, edges of more than two triangles and flipped neighbours.
-pub(super) fn neighbours(
-    name: &str,
-    drawn: &[Drawn],
-    places: &Places,
-) -> Result<Neighbours, BoundaryError> {
+pub(super) fn neighbours(name: &str, drawn: &[Drawn], places: &Places) -> Result<Neighbours> {
     check_repeated(name, drawn)?;
     let halves = half_edges(drawn.iter().map(|d| d.corners));
     let mut neighbours = vec![[None; 3]; drawn.len()];
@@ -213,7 +233,7 @@ pub(super) fn neighbours(
     Ok(neighbours)
 }
 
-fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<(), BoundaryError> {
+fn check_repeated(name: &str, drawn: &[Drawn]) -> Result<()> {
     let key = |(t, d): (usize, &Drawn)| {
         let mut sorted = d.corners;
         sorted.sort_unstable();

@@ -7,7 +7,7 @@ use sph_core::BoxTree;
 use super::drawn::Surface;
 use super::patches::Patch;
 use super::places::{EdgeKey, Places, Site, edge_key};
-use crate::error::{BoundaryError, Place};
+use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened};
 
@@ -16,7 +16,6 @@ use crate::geometry::vector::{Point, add, along, bounds, dot, norm, sub, widened
 pub(super) struct Nodes {
     pub positions: Vec<Point>,
     pub walls: Vec<usize>,
-    /// The node at each corner of a patch.
     pub at_corner: HashMap<u32, u32>,
     /// First of the nodes within each straight piece of an edge, and the number of equal parts.
     within: HashMap<EdgeKey, (u32, u32)>,
@@ -35,48 +34,18 @@ impl Nodes {
         self.at_corner.insert(corner.id, id);
         Site { id, ..corner }
     }
-
-    /// Nodes from `from` up to but without `to`, along a straight piece of an edge.
-    fn piece(
-        &mut self,
-        [from, to]: [Site; 2],
-        places: &Places,
-        wall: usize,
-        spacing: f64,
-    ) -> Vec<Site> {
-        let (key, forward, image) = edge_key(from, to);
-        let mut nodes = vec![self.corner(from, places, wall)];
-        let (first, parts) = match self.within.get(&key) {
-            Some(known) => *known,
-            None => {
-                let start = places.positions[key.first as usize];
-                let whole = sub(places.at(key.second), start);
-                let parts = ((norm(whole) / spacing).round() as u32).max(1);
-                let first = self.positions.len() as u32;
-                for k in 1..parts {
-                    let part = f64::from(k) / f64::from(parts);
-                    self.push(along(start, part, whole), wall);
-                }
-                self.within.insert(key, (first, parts));
-                (first, parts)
-            }
-        };
-        nodes.extend((0..parts - 1).map(|k| Site {
-            id: first + if forward { k } else { parts - 2 - k },
-            image,
-        }));
-        nodes
-    }
 }
 
 /// Cuts of every edge of the patches by corners of the patches of its group.
-pub(super) struct Cuts {
+pub(super) struct Cuts<'a> {
     /// Corners along the edge, both ends included, from the key's first end.
     chains: HashMap<EdgeKey, Vec<Site>>,
+    pub places: &'a Places,
+    spacing: f64,
 }
 
-impl Cuts {
-    pub fn new(patches: &[Patch], places: &Places, spacing: f64) -> Self {
+impl<'a> Cuts<'a> {
+    pub fn new(patches: &[Patch], places: &'a Places, spacing: f64) -> Self {
         let corners = Corners::new(patches, places, spacing);
         let mut chains = HashMap::new();
         for edge in patches.iter().flat_map(|patch| &patch.boundary) {
@@ -84,7 +53,11 @@ impl Cuts {
             let chain = chains.entry(key);
             chain.or_insert_with(|| corners.along(&key, places));
         }
-        Self { chains }
+        Self {
+            chains,
+            places,
+            spacing,
+        }
     }
 
     /// The corners along an edge in the direction in which it is travelled, both ends included.
@@ -97,22 +70,38 @@ impl Cuts {
         chain
     }
 
-    /// Nodes along an edge, both corners included.
-    pub fn nodes(
-        &self,
-        edge: [Site; 2],
-        places: &Places,
-        nodes: &mut Nodes,
-        wall: usize,
-        spacing: f64,
-    ) -> Vec<Site> {
-        let chain = self.along(edge);
+    pub fn nodes(&self, edge: [Site; 2], nodes: &mut Nodes, wall: usize) -> Vec<Site> {
         let mut sites = Vec::new();
-        for pair in chain.windows(2) {
-            sites.extend(nodes.piece([pair[0], pair[1]], places, wall, spacing));
+        for pair in self.along(edge).windows(2) {
+            self.add_piece([pair[0], pair[1]], nodes, wall, &mut sites);
         }
-        sites.push(nodes.corner(edge[1], places, wall));
+        sites.push(nodes.corner(edge[1], self.places, wall));
         sites
+    }
+
+    /// Appends the nodes from one end up to but without the other, along a straight piece of an edge.
+    fn add_piece(&self, ends: [Site; 2], nodes: &mut Nodes, wall: usize, sites: &mut Vec<Site>) {
+        let (key, forward, image) = edge_key(ends[0], ends[1]);
+        sites.push(nodes.corner(ends[0], self.places, wall));
+        let (first, parts) = match nodes.within.get(&key) {
+            Some(known) => *known,
+            None => {
+                let start = self.places.positions[key.first as usize];
+                let whole = sub(self.places.at(key.second), start);
+                let parts = ((norm(whole) / self.spacing).round() as u32).max(1);
+                let first = nodes.positions.len() as u32;
+                for k in 1..parts {
+                    let part = f64::from(k) / f64::from(parts);
+                    nodes.push(along(start, part, whole), wall);
+                }
+                nodes.within.insert(key, (first, parts));
+                (first, parts)
+            }
+        };
+        sites.extend((0..parts - 1).map(|k| Site {
+            id: first + if forward { k } else { parts - 2 - k },
+            image,
+        }));
     }
 }
 
@@ -155,10 +144,7 @@ impl Corners {
 
     /// Corners on an edge, from end to end.
     fn along(&self, key: &EdgeKey, places: &Places) -> Vec<Site> {
-        let first = Site {
-            id: key.first,
-            image: [0; 3],
-        };
+        let first = Site::unmoved(key.first);
         let [start, end] = [first, key.second].map(|c| places.at(c));
         let whole = sub(end, start);
         let length2 = dot(whole, whole);
@@ -198,9 +184,8 @@ type Travelled = Vec<(usize, [Site; 2])>;
 pub(super) fn free_pieces(
     surfaces: &[Surface],
     patches: &[Patch],
-    cuts: &Cuts,
-    places: &Places,
-) -> Result<Vec<[Site; 2]>, BoundaryError> {
+    cuts: &Cuts<'_>,
+) -> Result<Vec<[Site; 2]>> {
     // Of every piece: the walls that travel it with and against its key.
     let mut walls: BTreeMap<EdgeKey, [Travelled; 2]> = BTreeMap::new();
     for patch in patches {
@@ -223,8 +208,8 @@ pub(super) fn free_pieces(
             0 => {}
             1 => free.push(more[0].1),
             _ => {
-                let [a, b] = more[0].1.map(|c| places.at(c));
-                return Err(BoundaryError::Refused(format!(
+                let [a, b] = more[0].1.map(|c| cuts.places.at(c));
+                return Err(BoundaryError(format!(
                     "walls `{}` and `{}` meet in an edge at {} but put the fluid on opposite sides: reverse the \
                      triangles of one of them",
                     surfaces[more[0].0].name,

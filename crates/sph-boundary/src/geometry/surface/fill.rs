@@ -10,12 +10,10 @@ use super::patches::Patch;
 use super::places::Site;
 use crate::geometry::mesh::SAME_PLACE;
 use crate::geometry::periodic::PeriodicBox;
-use crate::geometry::plane::Plane;
-use crate::geometry::vector::{Point, add, norm, perp, sub};
+use crate::geometry::vector::{Plane, Point, add, norm, perp, sub};
 
 /// Nodes inside a piece keep this part of the spacing from its edges.
 const CLEARANCE: f64 = 0.6;
-
 /// Part of a length or an area that may be rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -28,7 +26,6 @@ pub(super) enum Corner {
     Inside(u32),
 }
 
-/// A piece cut into triangles.
 #[derive(Debug, Default)]
 pub(super) struct Filling {
     pub inside: Vec<Point>,
@@ -57,9 +54,8 @@ impl Filling {
 
 /// Cuts a planar piece into triangles of about the spacing.
 ///
-/// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each
-/// other. Inside are the points of a square
-/// lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
+/// `sides[e]` are the nodes along its edge e, both ends included; the edges of a loop follow each other. Inside are the
+/// points of a square lattice along its longest edge, joined by a constrained Delaunay triangulation; a rectangle gets
 /// a lattice that meets the nodes of all its sides. The reason if that is impossible.
 pub(super) fn fill(
     patch: &Patch,

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::geometry::vector::{bounds, foot_on_segment};
+use crate::geometry::vector::{bounds, foot_on_edge};
 
 /// A rectangular lattice of points (i s₀, j s₁), m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +82,7 @@ impl Lattice {
         };
         for j in range(1) {
             for i in range(0) {
-                let (_, off) = foot_on_segment(self.point([i, j]), [a, b]);
+                let (_, off) = foot_on_edge(self.point([i, j]), [a, b]);
                 if off[0].hypot(off[1]) < clearance {
                     close.insert([i, j]);
                 }

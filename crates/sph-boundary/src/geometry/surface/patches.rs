@@ -9,10 +9,10 @@ use crate::geometry::vector::{Point, distance_to_segment, dot, sub};
 /// Neighbours whose normals differ by more are never one plane, at any size.
 const SAME_DIRECTION: f64 = 0.99;
 
-/// A planar piece of a wall.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub wall: usize,
+    pub group: usize,
     /// Unit normal, into the fluid.
     pub normal: Point,
     /// A point of its plane, m.
@@ -22,7 +22,6 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// The boundary as closed loops of corners.
     pub fn loops(&self) -> Vec<Vec<Site>> {
         let mut after: HashMap<Site, Vec<usize>> = HashMap::new();
         for (e, edge) in self.boundary.iter().enumerate() {
@@ -141,6 +140,7 @@ pub(super) fn patches(
             numbers[seed] = patches.len() as u32;
             patches.push(Patch {
                 wall: d.wall,
+                group: d.group,
                 normal: drawn[seed].normal,
                 origin: drawn[seed].places[0],
                 boundary: Vec::new(),

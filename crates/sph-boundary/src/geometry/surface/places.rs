@@ -14,6 +14,11 @@ pub(super) struct Site {
 }
 
 impl Site {
+    pub fn unmoved(id: u32) -> Self {
+        let image = [0; 3];
+        Self { id, image }
+    }
+
     pub fn moved(self, by: [i32; 3]) -> Self {
         let image = std::array::from_fn(|k| self.image[k] + by[k]);
         Self { image, ..self }
@@ -24,16 +29,14 @@ impl Site {
     }
 }
 
-/// An edge whichever way it is travelled and across whichever period it is drawn: from `first`,
-/// unmoved, to `second`.
+/// An edge whichever way it is travelled and across whichever period it is drawn: from `first`, unmoved, to `second`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct EdgeKey {
     pub first: u32,
     pub second: Site,
 }
 
-/// An edge between two sites: its key, whether it is travelled like the key, and where the key's
-/// first end is drawn.
+/// An edge between two sites: its key, whether it is travelled like the key, and where the key's first end is drawn.
 pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
     let apart = to.moved_back(from.image);
     let forward = (from.id, [0; 3]) < (to.id, apart.image);
@@ -45,11 +48,10 @@ pub(super) fn edge_key(from: Site, to: Site) -> (EdgeKey, bool, [i32; 3]) {
     (key, forward, first.image)
 }
 
-/// An edge of a triangle.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct HalfEdge {
     pub key: EdgeKey,
     pub triangle: u32,
-    /// Its first corner.
     pub edge: u8,
     /// True if it is travelled like the key.
     pub forward: bool,
@@ -72,7 +74,7 @@ pub(super) fn half_edges(triangles: impl Iterator<Item = [Site; 3]>) -> Vec<Half
         })
     };
     let mut halves: Vec<HalfEdge> = triangles.enumerate().flat_map(of).collect();
-    halves.par_sort_unstable_by_key(|h| (h.key, h.triangle, h.edge));
+    halves.par_sort_unstable();
     halves
 }
 
@@ -119,7 +121,7 @@ impl Places {
         self.groups.push(group);
         let cell = self.wrapped(point).map(|x| self.cell(x));
         self.before.push(self.cells.insert(cell, id));
-        Site { id, image: [0; 3] }
+        Site::unmoved(id)
     }
 
     fn known(&self, point: Point, group: usize) -> Option<Site> {
@@ -141,7 +143,6 @@ impl Places {
         None
     }
 
-    /// A point moved into the box along the periodic axes.
     fn wrapped(&self, point: Point) -> Point {
         let periods = self.domain.periods();
         std::array::from_fn(|k| match self.domain.periodic[k] {

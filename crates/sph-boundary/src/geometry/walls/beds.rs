@@ -5,11 +5,10 @@ use std::sync::Arc;
 use sph_core::bed::{Bed, LevelGrid, horizontal};
 
 use crate::geometry::vector::{bounds, perp, sub};
-use crate::{BoundaryError, Erodible, Mesh, PeriodicBox, WallSpec};
+use crate::{BoundaryError, Erodible, Mesh, PeriodicBox, Result, WallSpec};
 
 /// Elements whose normal has a smaller part upwards are no floor.
 const FLOOR: f64 = 0.02;
-/// Most places of a bed.
 const MOST_PLACES: usize = 1_000_000;
 /// A place this near to the border of an element, over the cell, is within it.
 const BORDER: f64 = 1e-6;
@@ -22,7 +21,7 @@ pub(crate) fn laid<const D: usize>(
     mesh: &Mesh<D>,
     specs: &[WallSpec<D>],
     domain: &PeriodicBox<D>,
-) -> Result<Vec<Bed>, BoundaryError> {
+) -> Result<Vec<Bed>> {
     let mut beds = Vec::new();
     let mut seen: Vec<&Arc<Erodible>> = Vec::new();
     for erodible in specs.iter().filter_map(|spec| spec.motion.bed.as_ref()) {
@@ -41,7 +40,6 @@ pub(crate) fn laid<const D: usize>(
     Ok(beds)
 }
 
-/// The corners of the elements of some walls that face upwards.
 fn floor<const D: usize>(mesh: &Mesh<D>, walls: &[usize]) -> Vec<[[f64; D]; D]> {
     let upward = |e: &usize| {
         let element = &mesh.elements[*e];
@@ -56,7 +54,7 @@ fn bed<const D: usize>(
     floor: &[[[f64; D]; D]],
     walls: Vec<u32>,
     domain: &PeriodicBox<D>,
-) -> Result<Bed, BoundaryError> {
+) -> Result<Bed> {
     if floor.is_empty() {
         return Err(no_floor(erodible));
     }
@@ -89,7 +87,7 @@ fn grid<const D: usize>(
     erodible: &Erodible,
     floor: &[[[f64; D]; D]],
     domain: &PeriodicBox<D>,
-) -> Result<(LevelGrid, [[bool; 2]; 2]), BoundaryError> {
+) -> Result<(LevelGrid, [[bool; 2]; 2])> {
     let mut grid = LevelGrid {
         lower: [0.0; 2],
         cell: [1.0; 2],
@@ -109,7 +107,7 @@ fn grid<const D: usize>(
         }
         let cells = (length / erodible.cell).round().max(1.0);
         if cells * grid.count[0] as f64 > MOST_PLACES as f64 {
-            return Err(BoundaryError::Refused(format!(
+            return Err(BoundaryError(format!(
                 "the bed `{}` has {} places, more than {MOST_PLACES}: give it a larger `cell`",
                 erodible.wall,
                 cells * grid.count[0] as f64

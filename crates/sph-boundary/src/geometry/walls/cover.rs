@@ -3,24 +3,21 @@
 use rayon::prelude::*;
 use sph_core::Vect;
 
-use crate::geometry::walls::wall_mesh::WallMesh;
-use crate::{NearElement, SeenElement};
+use crate::{NearElement, SeenElement, WallMesh};
 
 /// Samples along a radius of the ball around a node; half a sample from its centre is the first.
 const SAMPLES: i32 = 3;
-
 /// Radius of the search for elements around a node, over the spacing: those within 2 spacings, and those that may come
 /// there until the next search.
 const FAR: f64 = 2.8;
 
 /// Nodes near walls that move otherwise than their own, and the rest of their fluid.
 ///
-/// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that
-/// moves otherwise (a gate that stands on a floor, a piston that sweeps it) may take a part, which
-/// changes continuously with its position, and what is within half a spacing of both walls is
-/// stood for by the nodes of both. The visible share is the mean over samples of the ball of
-/// H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances and
-/// H a ramp as wide as the samples are apart.
+/// A node stands for the fluid in a ball of half a spacing around it. Of that ball a wall that moves otherwise (a gate
+/// that stands on a floor, a piston that sweeps it) may take a part, which changes continuously with its position, and
+/// what is within half a spacing of both walls is stood for by the nodes of both. The visible share is the mean over
+/// samples of the ball of H(d_own) [H(d_other) + H(d_other − δr/2)]/2 over that of H(d_own), d being signed distances
+/// and H a ramp as wide as the samples are apart.
 #[derive(Debug, Default)]
 pub(crate) struct Cover<const D: usize> {
     /// Nodes within reach of other walls at the last search.

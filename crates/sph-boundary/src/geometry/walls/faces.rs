@@ -3,8 +3,7 @@
 use sph_core::Vect;
 
 use crate::geometry::cells::listed;
-use crate::geometry::plane::Plane;
-use crate::geometry::vector::{bounds, dot, foot_on_segment, perp, sub, widened};
+use crate::geometry::vector::{Plane, bounds, dot, foot_on_edge, perp, sub, widened};
 use crate::integrals::spatial::{Circle, Patch};
 use crate::{FaceEdge, Mesh};
 
@@ -20,21 +19,17 @@ pub(crate) struct Planes {
     pub ends: Vec<u32>,
     /// By face: its edges, with the corners at hand.
     pub edges: Vec<Vec<[Corner; 2]>>,
-    /// By triangle: its face.
     pub faces: Vec<u32>,
     /// By face: the search for the triangle at a place, where all that a particle sees of the face is one contact; none
     /// where each triangle is one.
     pub maps: Vec<Option<FaceMap>>,
     /// By triangle; none where every face is one contact.
     pub patches: Vec<Patch>,
-    /// The same.
     pub circles: Vec<Circle>,
 }
 
-/// A corner of a face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corner {
-    /// Of its node, m.
     pub position: Vect<3>,
     /// Whole periods to add.
     pub image: [i32; 3],
@@ -69,7 +64,6 @@ impl Planes {
         all
     }
 
-    /// Follows walls that have moved.
     pub fn follow(&mut self, mesh: &Mesh<3>) {
         self.edges.clear();
         for face in &mesh.faces {
@@ -104,7 +98,6 @@ impl Planes {
 /// The triangles of a face as they are drawn, in coordinates that move with its first one, by square cells.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceMap {
-    /// Number of the first triangle.
     first: u32,
     /// Corners of every triangle, m.
     corners: Vec<[[f64; 2]; 3]>,
@@ -236,7 +229,6 @@ impl FaceMap {
     }
 }
 
-/// Barycentric coordinates of a place.
 fn weights([a, b, c]: &[[f64; 2]; 3], x: [f64; 2]) -> [f64; 3] {
     let (u, v, w) = (sub(*b, *a), sub(*c, *a), sub(x, *a));
     let whole = perp(u, v);
@@ -248,7 +240,7 @@ fn weights([a, b, c]: &[[f64; 2]; 3], x: [f64; 2]) -> [f64; 3] {
 fn nearest_in(corners: &[[f64; 2]; 3], x: [f64; 2]) -> (f64, [f64; 3]) {
     let mut found = (f64::INFINITY, [1.0, 0.0, 0.0]);
     for k in 0..3 {
-        let (part, off) = foot_on_segment(x, [corners[k], corners[(k + 1) % 3]]);
+        let (part, off) = foot_on_edge(x, [corners[k], corners[(k + 1) % 3]]);
         let distance2 = dot(off, off);
         if distance2 < found.0 {
             let mut weights = [0.0; 3];

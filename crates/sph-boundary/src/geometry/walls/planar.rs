@@ -6,26 +6,23 @@ use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
 use crate::geometry::checks::check_points;
-use crate::geometry::junctions::bounding;
+use crate::geometry::junctions::{bounding, without_shared};
 use crate::geometry::mesh::SAME_PLACE;
-use crate::geometry::shells::Gammas;
-use crate::geometry::touching::without_shared;
 use crate::geometry::walls::beds::laid;
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
-use crate::treatment::groups::groups;
+use crate::treatment::contract::groups;
 use crate::{
-    BoundaryError, Drawing, GammaSum, Mesh, NearElement, PeriodicBox, Polyline, Pose,
-    Renormalisation2d, SeenElement, SegmentBatch, WallSpec, Walls,
+    BoundaryError, Drawing, GammaSum, Gammas, Hindrance, Mesh, NearElement, NearRows, PeriodicBox,
+    Polyline, Pose, Renormalisation2d, Result, SeenElement, SegmentBatch, View, WallMesh, WallSpec,
+    Walls,
 };
 
 /// Two dummy particles nearer than this share of the spacing are one.
 const TOO_CLOSE: f64 = 0.7;
 
 impl Walls<2> {
-    /// Plane at which a segment keeps a particle off.
     fn hindrance(
         &self,
-        (x, behind): (&Vect<2>, &[(u32, u32)]),
+        (x, behind): View<'_, 2>,
         near: NearElement<2>,
         reach: f64,
     ) -> Option<Hindrance<2>> {
@@ -86,12 +83,7 @@ impl WallMesh<2> for Walls<2> {
     type Integrals = Renormalisation2d;
     type Scratch = SegmentBatch;
 
-    fn build(
-        walls: &[WallSpec<2>],
-        spacing: f64,
-        reach: f64,
-        domain: &PeriodicBox<2>,
-    ) -> Result<Self, BoundaryError> {
+    fn build(walls: &[WallSpec<2>], size: f64, reach: f64, domain: &PeriodicBox) -> Result<Self> {
         let line = |spec: &WallSpec<2>| match &spec.drawing {
             Drawing::Line(line) => check_points(line).map(|()| line.clone()),
             Drawing::Surface(surface) => Err(BoundaryError::unfit(
@@ -100,42 +92,37 @@ impl WallMesh<2> for Walls<2> {
             )),
         };
         let lines: Vec<Polyline> = walls.iter().map(line).collect::<Result<_, _>>()?;
-        let pieces = without_shared(&lines, &groups(walls), spacing)?;
-        let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * spacing);
+        let pieces = without_shared(&lines, &groups(walls), size)?;
+        let (pieces, unseen) = bounding(pieces, &groups(walls), SAME_PLACE * size);
         let (wall_of, lines): (Vec<usize>, Vec<Polyline>) = pieces.into_iter().unzip();
         let names = walls.iter().map(|w| w.drawing.name().to_string()).collect();
-        let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, spacing, domain)?;
+        let mut mesh = Mesh::of_pieces((&lines, &wall_of), names, size, domain)?;
         mesh.warnings.extend(unseen);
         mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
         mesh.beds = laid(&mesh, walls, domain)?;
         Ok(Walls::new(mesh, walls, reach))
     }
 
-    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d, BoundaryError> {
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation2d> {
         Renormalisation2d::new(shape, h)
     }
 
-    fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<(), BoundaryError> {
+    fn move_walls(&mut self, poses: &[Pose<2>]) -> Result<()> {
         if poses == self.mesh.poses {
             return Ok(());
         }
         self.mesh.move_walls(poses)?;
-        self.forget_places();
+        self.grid.take();
         Ok(())
     }
 
-    fn near_all(
-        &self,
-        points: &[Vect<2>],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<2>>,
-    ) {
+    fn near_all(&self, points: &[Vect<2>], radius: f64, rows: &mut NearRows<2>) {
         let (radius, grid) = (radius.min(self.reach), self.grid());
         for point in points {
-            let from = rows.len();
-            rows.extend(grid.near(&self.mesh, (*point).into(), radius));
-            counts.push((rows.len() - from) as u32);
+            let from = rows.elements.len();
+            let near = grid.near(&self.mesh, (*point).into(), radius);
+            rows.elements.extend(near);
+            rows.counts.push((rows.elements.len() - from) as u32);
         }
     }
 
@@ -196,15 +183,11 @@ impl WallMesh<2> for Walls<2> {
         by.perp(&a) * by.perp(&b) <= 0.0 && along.perp(&-a) * along.perp(&(by - a)) <= 0.0
     }
 
-    fn hindrances(
-        &self,
-        of: (&Vect<2>, &[(u32, u32)]),
-        near: &[NearElement<2>],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<2>>,
-    ) {
-        let near = near.iter();
-        hindrances.extend(near.filter_map(|near| self.hindrance(of, *near, reach)));
+    fn hindrances(&self, of: View<'_, 2>, row: &[NearElement<2>], reach: f64) -> Vec<Hindrance<2>> {
+        let all = row
+            .iter()
+            .filter_map(|near| self.hindrance(of, *near, reach));
+        all.collect()
     }
 
     fn enclosed(&self, point: &Vect<2>) -> Option<f64> {
@@ -221,7 +204,7 @@ impl WallMesh<2> for Walls<2> {
         }
     }
 
-    fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<(), BoundaryError> {
+    fn check_free_ends(&self, points: &[Vect<2>], radius: f64) -> Result<()> {
         let points: Vec<[f64; 2]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_ends(&points, radius)
     }

@@ -5,23 +5,20 @@ use sph_core::Vect;
 use sph_kernels::PiecewisePolynomial;
 use sph_neighbours::ContactBlock;
 
-use crate::geometry::shells::Gammas;
 use crate::geometry::vector::bounds;
 use crate::geometry::walls::beds::laid;
 use crate::geometry::walls::faces::{Corner, Planes};
-use crate::geometry::walls::wall_mesh::{Hindrance, WallMesh};
-use crate::integrals::spatial::Weights;
-use crate::treatment::groups::groups;
+use crate::treatment::contract::groups;
 use crate::{
-    BoundaryError, Closest, Drawing, Feature, Mesh, NearElement, PeriodicBox, Pose,
-    Renormalisation3d, Surface, WallSpec, Walls,
+    BoundaryError, Closest, Drawing, Feature, Gammas, Hindrance, Mesh, NearElement, NearRows,
+    PeriodicBox, Pose, Renormalisation3d, Result, Surface, View, WallMesh, WallSpec, Walls,
+    Weights,
 };
 
 /// Two places nearer than this, relatively, are equally near.
 const EQUALLY_NEAR: f64 = 1.0 + 1e-9;
 /// A place is in a plane if it is this near to it, relatively.
 const SAME_PLANE: f64 = 1e-6;
-
 /// A place of a dummy particle nearer to the fluid's side than this share of the spacing is left out.
 const TOO_NEAR: f64 = 0.25;
 
@@ -32,12 +29,7 @@ impl WallMesh<3> for Walls<3> {
     type Integrals = Renormalisation3d;
     type Scratch = Weights;
 
-    fn build(
-        walls: &[WallSpec<3>],
-        spacing: f64,
-        reach: f64,
-        domain: &PeriodicBox<3>,
-    ) -> Result<Self, BoundaryError> {
+    fn build(all: &[WallSpec<3>], size: f64, reach: f64, domain: &PeriodicBox<3>) -> Result<Self> {
         let surface = |spec: &WallSpec<3>| match &spec.drawing {
             Drawing::Surface(surface) => Ok(surface.clone()),
             Drawing::Line(line) => Err(BoundaryError::unfit(
@@ -45,70 +37,63 @@ impl WallMesh<3> for Walls<3> {
                 "is not drawn for 3 dimensions: a polyline is a wall of two, a surface one of three",
             )),
         };
-        let surfaces: Vec<Surface> = walls.iter().map(surface).collect::<Result<_, _>>()?;
-        let mut mesh = Mesh::<3>::build(&surfaces, &groups(walls), spacing, domain)?;
-        mesh.motions = walls.iter().map(|wall| wall.motion.clone()).collect();
-        mesh.beds = laid(&mesh, walls, domain)?;
+        let surfaces: Vec<Surface> = all.iter().map(surface).collect::<Result<_, _>>()?;
+        let mut mesh = Mesh::<3>::build(&surfaces, &groups(all), size, domain)?;
+        mesh.motions = all.iter().map(|wall| wall.motion.clone()).collect();
+        mesh.beds = laid(&mesh, all, domain)?;
         mesh.part_faces();
         // Ports of open faces are of elements.
-        let open = walls.iter().any(|wall| wall.open);
-        let mut walls = Walls::new(mesh, walls, reach);
+        let open = all.iter().any(|wall| wall.open);
+        let mut walls = Walls::new(mesh, all, reach);
         let motions = &walls.mesh.motions;
         let cut = |wall: usize| open || motions[wall].bends();
         walls.planes = Planes::new(&walls.mesh, cut);
         Ok(walls)
     }
 
-    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d, BoundaryError> {
+    fn integrals(shape: &PiecewisePolynomial, h: f64) -> Result<Renormalisation3d> {
         Renormalisation3d::new(shape, h)
     }
 
-    fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<(), BoundaryError> {
+    fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<()> {
         self.mesh.move_walls(poses)?;
-        self.forget_places();
+        self.grid.take();
         self.planes.follow(&self.mesh);
         Ok(())
     }
 
     /// Also those of which only the sphere around them is in reach: to look closer costs more than
     /// to see them left out by every γ. Face by face, as the triangles are.
-    fn near_all(
-        &self,
-        points: &[Vect<3>],
-        radius: f64,
-        counts: &mut Vec<u32>,
-        rows: &mut Vec<NearElement<3>>,
-    ) {
+    fn near_all(&self, points: &[Vect<3>], radius: f64, rows: &mut NearRows<3>) {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
-        self.grid()
-            .rows(&points, radius.min(self.reach), counts, rows);
+        self.grid().rows(&points, radius.min(self.reach), rows);
     }
 
     /// One triangle of each face that is one contact: the rest of it is found from there.
-    fn merge(&self, counts: &mut [u32], rows: &mut Vec<NearElement<3>>) {
+    fn merge(&self, NearRows { counts, elements }: &mut NearRows<3>) {
         let (mut from, mut kept) = (0, 0);
         for count in counts {
             let end = from + *count as usize;
             let before = kept;
             while from < end {
-                let part = self.faces(&rows[from..end]).next().map_or(0, <[_]>::len);
-                let face = self.planes.faces[rows[from].index()];
+                let part = self
+                    .faces(&elements[from..end])
+                    .next()
+                    .map_or(0, <[_]>::len);
+                let face = self.planes.faces[elements[from].index()];
                 let left = match &self.planes.maps[face as usize] {
                     Some(_) => 1,
                     None => part,
                 };
-                rows.copy_within(from..from + left, kept);
+                elements.copy_within(from..from + left, kept);
                 kept += left;
                 from += part;
             }
             *count = (kept - before) as u32;
         }
-        rows.truncate(kept);
+        elements.truncate(kept);
     }
 
-    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the triangles of a cut face
-    /// by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
-    /// whatever else stands in the row.
     fn clearance(&self, point: &Vect<3>, near: &[NearElement<3>]) -> f64 {
         let heights = self.faces(near).map(|part| {
             let first = &self.mesh.elements[part[0].index()];
@@ -119,6 +104,9 @@ impl WallMesh<3> for Walls<3> {
         heights.filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
     }
 
+    /// γ and the sum of ∇γ are exact over every planar face; the sum is shared out to the triangles of a cut face
+    /// by quadrature. A face counts where the disc of its plane within the support meets one of its triangles,
+    /// whatever else stands in the row.
     fn gammas<'a>(
         &self,
         integrals: &Renormalisation3d,
@@ -146,13 +134,8 @@ impl WallMesh<3> for Walls<3> {
         sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
     }
 
-    fn hindrances(
-        &self,
-        (point, behind): (&Vect<3>, &[(u32, u32)]),
-        row: &[NearElement<3>],
-        reach: f64,
-        hindrances: &mut Vec<Hindrance<3>>,
-    ) {
+    fn hindrances(&self, of: View<'_, 3>, row: &[NearElement<3>], reach: f64) -> Vec<Hindrance<3>> {
+        let (point, behind) = of;
         let x: [f64; 3] = (*point).into();
         let row = &self.expanded(point, row, reach)[..];
         let seen = row.iter().map(|near| {
@@ -167,6 +150,7 @@ impl WallMesh<3> for Walls<3> {
             side * closest.height > 0.0 && *distance <= reach
         };
         let all: Vec<_> = seen.filter(before).collect();
+        let mut hindrances = Vec::new();
         for (near, closest, offset, distance) in &all {
             // A place on the rim of a triangle counts where it is the nearest of the wall around:
             // on an edge that stands out, not where the plane beyond the rim is nearer.
@@ -189,6 +173,7 @@ impl WallMesh<3> for Walls<3> {
                 image: self.mesh.domain.shift(near.image.map(i32::from)).into(),
             });
         }
+        hindrances
     }
 
     fn enclosed(&self, point: &Vect<3>) -> Option<f64> {
@@ -199,7 +184,7 @@ impl WallMesh<3> for Walls<3> {
         self.mesh.contains((*point).into())
     }
 
-    fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<(), BoundaryError> {
+    fn check_free_ends(&self, points: &[Vect<3>], radius: f64) -> Result<()> {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
         self.mesh.check_free_edges(&points, radius)
     }
@@ -207,8 +192,7 @@ impl WallMesh<3> for Walls<3> {
     /// Nodes of the cubic lattice of half spacings, counted from the lower corner of the box around all
     /// walls, that are outside the fluid and within the support of a wall.
     ///
-    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones
-    /// get steps.
+    /// Faces along the axes at whole spacings get rows at ½, 1½, … spacings; slanted and curved ones get steps.
     fn layers(&self, spacing: f64, support: f64) -> Vec<(usize, Vect<3>)> {
         let domain = &self.mesh.domain;
         let [low, high] = bounds(self.nodes().iter().map(|n| n.position));

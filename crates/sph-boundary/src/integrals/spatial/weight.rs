@@ -4,8 +4,7 @@ use sph_kernels::lanes::Lane;
 
 use super::Renormalisation3d;
 
-/// Squared distance of the centre over the area from which on a rule is used, and the largest
-/// area over h² for it.
+/// Squared distance of the centre over the area from which on a rule is used, and the largest area over h² for it.
 struct Range {
     distance: f64,
     area: f64,
@@ -23,8 +22,7 @@ const TWELVE: Range = Range {
 /// An orbit of three points: the barycentric coordinate that differs, and the weight of one.
 type Orbit = [f64; 2];
 
-/// Six points of degree 4 and twelve of degree 6. Source: Dunavant (1985),
-/// doi:10.1002/nme.1620210612.
+/// Six points of degree 4 and twelve of degree 6. Source: Dunavant (1985), doi:10.1002/nme.1620210612.
 const SIX_ORBITS: [Orbit; 2] = [
     [0.108_103_018_168_070, 0.223_381_589_678_011],
     [0.816_847_572_980_459, 0.109_951_743_655_322],
@@ -43,8 +41,7 @@ const TWELVE_MIXED_WEIGHT: f64 = 0.082_851_075_618_374;
 
 /// Squared distances of the places of a triangle from a point, m².
 ///
-/// With c the vector to the mean of the corners, ξ_i from there to the corners, Σ ξ_i = 0, and
-/// Σ λ_i = 1,
+/// With c the vector to the mean of the corners, ξ_i from there to the corners, Σ ξ_i = 0, and Σ λ_i = 1,
 ///
 /// ```text
 /// |c + Σ λ_i ξ_i|² = c² + Σ λ_i t_i + |Σ λ_i ξ_i|²,   t_i = 2 c·ξ_i
@@ -90,13 +87,9 @@ impl Renormalisation3d {
     }
 }
 
-/// Quadrature rule of a triangle.
 pub(super) enum Rule {
-    /// By six points.
     Six,
-    /// By twelve.
     Twelve,
-    /// In closed form.
     Exact,
 }
 
@@ -108,14 +101,12 @@ pub(super) fn is_far<L: Lane>(centre: L, area: L, per_h2: f64) -> bool {
     !(near || large)
 }
 
-/// Mean of the kernel from its values at six points.
 #[inline(always)]
 pub(super) fn mean_of_six<L: Lane>(w: [L; POINTS]) -> L {
     let (first, second) = (L::splat(SIX_ORBITS[0][1]), L::splat(SIX_ORBITS[1][1]));
     first * (w[0] + w[1] + w[2]) + second * (w[3] + w[4] + w[5])
 }
 
-/// Of [`SquaredDistances::six`].
 pub(super) const POINTS: usize = 6;
 
 impl<L: Lane> SquaredDistances<L> {

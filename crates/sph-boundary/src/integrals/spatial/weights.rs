@@ -4,7 +4,7 @@ use sph_kernels::lanes::{Body, Lane, MOST, dispatch};
 
 use super::Renormalisation3d;
 use super::weight::{POINTS, Rule, SquaredDistances, is_far, mean_of_six};
-use crate::geometry::plane::Plane;
+use crate::geometry::vector::Plane;
 
 /// A triangle in the coordinates of its plane, ready to be seen from many points.
 #[derive(Clone, Copy, Debug)]
@@ -44,13 +44,6 @@ impl Patch {
         // Rounding loses nothing.
         let radius = squares.into_iter().fold(0.0, f64::max).sqrt() * (1.0 + 1e-9);
         (patch, Circle { centre, radius })
-    }
-
-    /// Squared distances from the point over the foot, m².
-    #[inline(always)]
-    fn squared_distances(&self, foot: &Foot) -> SquaredDistances<f64> {
-        let height2 = foot.height * foot.height;
-        SquaredDistances::new(foot.to(self.centre), height2, self.arms, self.squares)
     }
 
     /// Corners relative to the point over the foot, m, with the plane's normal along the third axis.
@@ -125,13 +118,12 @@ impl Weights {
 
     /// ∫ w dS over the triangles that were found, 1/m: by quadrature where that is accurate, else exactly.
     ///
-    /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being
-    /// known from [`polygon`](Renormalisation3d::polygon). Six points where the centre is a leg or more away,
-    /// twelve for half a leg, and the closed form below that and for triangles larger than h.
-    /// Measured for right isosceles triangles with legs h/2: within 7·10⁻⁵ w(0) · area; of the
-    /// triangle's own largest w · area, 10⁻⁴ (3·10⁻⁴ for Wendland C6) unless a corner is within a
-    /// leg of the support's end. With legs 2h/3: within 10⁻⁴ w(0) · area for the Wendland kernels
-    /// and the quintic spline, 2·10⁻⁴ for the cubic one.
+    /// For many triangles with legs of h/2 to 3h/4 of which only shares are needed, the sum being known from
+    /// [`polygon`](Renormalisation3d::polygon). Six points where the centre is a leg or more away, twelve for half a
+    /// leg, and the closed form below that and for triangles larger than h. Measured for right isosceles triangles with
+    /// legs h/2: within 7·10⁻⁵ w(0) · area; of the triangle's own largest w · area, 10⁻⁴ (3·10⁻⁴ for Wendland C6)
+    /// unless a corner is within a leg of the support's end. With legs 2h/3: within 10⁻⁴ w(0) · area for the Wendland
+    /// kernels and the quintic spline, 2·10⁻⁴ for the cubic one.
     pub(crate) fn weigh(&mut self, of: &Renormalisation3d, patches: &[Patch], foot: &Foot) {
         let n = self.near.len();
         let room = n.next_multiple_of(MOST);
@@ -159,7 +151,8 @@ impl Weights {
         }
         for (&triangle, weight) in near.iter().zip(weights) {
             let patch = &patches[triangle as usize];
-            let seen = patch.squared_distances(foot);
+            let (centre, height2) = (foot.to(patch.centre), foot.height * foot.height);
+            let seen = SquaredDistances::new(centre, height2, patch.arms, patch.squares);
             match of.rule(seen.centre, patch.area) {
                 Rule::Six => {}
                 Rule::Twelve => *weight = patch.area * of.mean_of_twelve(&seen),
@@ -170,7 +163,6 @@ impl Weights {
         }
     }
 
-    /// The triangles that were found with their weights, 1/m.
     pub(crate) fn all(&self) -> (&[u32], &[f64]) {
         (&self.near, &self.weights[..self.near.len()])
     }
@@ -254,7 +246,7 @@ mod tests {
     use sph_kernels::{Kernel, builtin};
 
     use super::*;
-    use crate::geometry::vector::{along, cross, dot, norm};
+    use crate::geometry::vector::{Plane, along, cross, dot, norm};
 
     /// Calls `found` with the distances of the corners, the weight and the integral of a right isosceles triangle in a
     /// tilted plane, from many points whose height and distance are at most `reach`.

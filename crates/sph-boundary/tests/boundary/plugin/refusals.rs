@@ -45,12 +45,9 @@ fn built(name: &str, walls: &[WallSpec<2>], kernel: &dyn Kernel) -> Result<(), B
 #[test]
 fn a_kernel_without_polynomial_is_refused_by_usaw_and_by_nobody_else() {
     let refused = built("usaw", &[square()], &Gaussian).unwrap_err();
-    assert!(matches!(refused, BoundaryError::Kernel { .. }));
     let told = refused.to_string();
-    assert!(
-        told.contains("`gaussian` gives no radial moments"),
-        "{told}"
-    );
+    let why = "kernel is not a piecewise polynomial with a positive integral: `gaussian` gives no radial moments";
+    assert!(told.starts_with(why), "{told}");
     built("dummy-particles", &[square()], &Gaussian).expect("dummies ask no moments");
     built("usaw", &[square()], &wendland_c2()).expect("a polynomial");
 }
@@ -69,20 +66,12 @@ fn a_free_end_within_reach_is_refused_by_name_and_one_beyond_is_not() {
         let refused = wall
             .check_free_ends(&[far, Vect::<2>::new(0.5, 1.2)])
             .unwrap_err();
-        let BoundaryError::FreeEndInReach {
-            wall,
-            particle,
-            distance,
-            radius,
-            ..
-        } = &refused
-        else {
-            panic!("{refused}");
-        };
-        assert_eq!((wall.as_str(), *particle), ("beaker", 1));
-        assert!((distance - 0.5f64.hypot(1.8)).abs() < 1e-14 && *radius == 2.0);
         let told = refused.to_string();
         assert!(told.contains("end of wall `beaker`"), "{told}");
+        assert!(told.contains("within the kernel radius 2 m"), "{told}");
+        let (_, away) = told.split_once("particle 1 is ").expect("its particle");
+        let distance: f64 = away.split(' ').next().unwrap().parse().unwrap();
+        assert!((distance - 0.5f64.hypot(1.8)).abs() < 1e-14, "{told}");
     }
 }
 
@@ -94,16 +83,12 @@ fn walls_that_cross_are_refused_with_both_names_and_the_place() {
             vec![[3.0, -1.0], [3.0, 1.0], [5.0, 1.0], [5.0, -1.0]],
         );
         let refused = built(name, &[square(), fixed_line(sill)], &wendland_c2()).unwrap_err();
-        let BoundaryError::Crossing {
-            wall, other, at, ..
-        } = &refused
-        else {
-            panic!("{refused}");
-        };
-        let mut names = [wall.as_str(), other.as_str()];
-        names.sort_unstable();
-        assert_eq!(names, ["sill", "tank"]);
-        assert!((at.0[0] == 3.0 || at.0[0] == 5.0) && at.0[1] == 0.0, "{at}");
+        let told = refused.to_string();
+        assert!(told.contains(" crosses edge "), "{told}");
+        let named = |wall: &str| told.contains(&format!("of wall `{wall}`"));
+        assert!(named("sill") && named("tank"), "{told}");
+        let place = ["near (3, 0)", "near (5, 0)"].map(|at| told.ends_with(at));
+        assert!(place.contains(&true), "{told}");
     }
 }
 

@@ -123,8 +123,11 @@ fn a_pipe_closes_through_periodicity() {
     let side = 2.0 * (std::f64::consts::PI / 24.0).sin();
     assert!((area(&mesh) - 24.0 * 2.0 * side).abs() < 1e-12);
     let mut mesh = mesh;
-    mesh.move_walls(&[Pose::translated([0.0, 0.0, 0.3])])
-        .unwrap();
+    mesh.move_walls(&[Pose {
+        translation: [0.0, 0.0, 0.3],
+        ..Pose::default()
+    }])
+    .unwrap();
     let turned = mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
     assert_eq!(
         turned.unwrap_err().to_string(),

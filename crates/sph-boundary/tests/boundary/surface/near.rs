@@ -1,6 +1,6 @@
 //! Triangles near a point, and the nearest place on them.
 
-use sph_boundary::{Feature, Grid, Mesh, NearElement, SeenElement};
+use sph_boundary::{Feature, Grid, Mesh, NearElement, NearRows, SeenElement};
 
 use crate::surface::shapes::*;
 
@@ -135,11 +135,11 @@ fn rows_of_points_together_hold_what_is_near_each() {
             let beside = |k: usize| [0, 1, 2].map(|x| first[x] + 0.1 * (k >> x & 1) as f64);
             points.extend((0..8).map(beside));
         }
-        let (mut counts, mut rows) = (Vec::new(), Vec::new());
-        grid.rows(&points, radius, &mut counts, &mut rows);
-        assert_eq!(counts.len(), points.len());
-        let mut rest = &rows[..];
-        for (point, count) in points.iter().zip(counts) {
+        let mut rows = NearRows::default();
+        grid.rows(&points, radius, &mut rows);
+        assert_eq!(rows.counts.len(), points.len());
+        let mut rest = &rows.elements[..];
+        for (point, count) in points.iter().zip(rows.counts) {
             let (row, after) = rest.split_at(count as usize);
             rest = after;
             assert!(row.windows(2).all(|w| {
@@ -152,9 +152,9 @@ fn rows_of_points_together_hold_what_is_near_each() {
             let out = |n: &NearElement<3>| mesh.closest(*point, *n).distance() > radius + 0.5;
             assert!(!row.iter().any(out), "{point:?}");
             // The same whoever is served with it.
-            let (mut alone, mut same) = (Vec::new(), Vec::new());
-            grid.rows(&[*point], radius, &mut alone, &mut same);
-            assert_eq!(same, row);
+            let mut same = NearRows::default();
+            grid.rows(&[*point], radius, &mut same);
+            assert_eq!(same.elements, row);
             found += near.len();
             besides += row.len() - near.len();
         }
