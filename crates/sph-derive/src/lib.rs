@@ -1,5 +1,6 @@
 //! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin`,
-//! `sph_core::parameters` and, for the columns of a pair term, `sph_neighbours::pair_term`.
+//! `sph_core::parameters` and, for pair terms, `sph_neighbours::pair_term` and
+//! `sph_neighbours::pair_sum`.
 //!
 //! ```text
 //! /// τ = 2 η γ̇ with constant η.
@@ -18,6 +19,7 @@
 
 mod defaults;
 mod fields;
+mod pair_sum;
 mod pair_term;
 mod parameter;
 mod registration;
@@ -85,6 +87,7 @@ fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
 /// * `#[both(FIELD, if condition)]`: a column that is read in some scenes only, an `Option` or else an empty slice;
 /// * `#[where_there(FIELD)]`: a column that not every scene has, an `Option`;
 /// * `#[rate(FIELD)]`: the slot of a rate that the term adds to;
+/// * `#[bound(expression)]`: columns of a source with `access` and `bind` of its own;
 /// * `#[value(expression)]`: a constant of the sweep.
 ///
 /// Expressions may use `self`, the term, and `world`.
@@ -93,6 +96,17 @@ pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let term = parse_macro_input!(arguments as pair_term::Term);
     let item = parse_macro_input!(item as DeriveInput);
     let code = pair_term::expand(&term, item);
+    code.unwrap_or_else(syn::Error::into_compile_error).into()
+}
+
+/// The sum of a pair term, written as one block of functions of the bound struct.
+///
+/// `own` and `pair` make its `PairSum`, with the types that they return and add to; `pair_at_walls` and the constants of
+/// the trait may stand beside them. `finish` makes the `BoundTerm`, other functions stay with the struct. All of them are
+/// `#[inline(always)]`.
+#[proc_macro_attribute]
+pub fn pair_sum(_: TokenStream, item: TokenStream) -> TokenStream {
+    let code = pair_sum::expand(parse_macro_input!(item as syn::ItemImpl));
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
 use sph_core::{Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values, WallSet,
-    World, add_scaled, all_sums, declared, pair_term, walk_some,
+    Lane, LanePair, Neighbourhood, Particles, Rates, Sums, Values, WallSet, World, add_scaled,
+    all_sums, declared, pair_sum, pair_term, walk_some,
 };
 use sph_rheology::state::Reference;
 
@@ -173,23 +173,19 @@ struct BoundDamping<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize> PairSum<D> for BoundDamping<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundDamping<'_, D> {
     const SCALED: bool = true;
-    /// q V².
-    type Own<L: Lane> = L;
-    type Sum<L: Lane> = ([L; D], L);
 
-    #[inline(always)]
+    /// q V².
     fn own<L: Lane>(&self, all: Particles) -> L {
         let volume = all.numbers::<L>(self.volume);
         all.numbers::<L>(self.pressure) * volume * volume
     }
-    #[inline(always)]
-    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut ([L; D], L)) {
         let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
         add_scaled(&mut sum.0, &pair.separation, (*own + other) * pair.factor);
     }
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &L,
@@ -200,10 +196,7 @@ impl<const D: usize> PairSum<D> for BoundDamping<'_, D> {
         let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
         sum.1 += (*own + other) * pair.value;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDamping<'_, D> {
-    #[inline(always)]
     fn finish(
         &self,
         (sum, of_values): ([f64; D], f64),

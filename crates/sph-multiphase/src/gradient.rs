@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet,
-    add_scaled, pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled,
+    pair_sum, pair_term,
 };
 
 /// Pressure, volume and density of one side of a pair.
@@ -99,13 +99,10 @@ pub struct BoundPressureGradient<'a, const D: usize, P: PairPressure> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D, P> {
+#[pair_sum]
+impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
     const SCALED: bool = true;
-    type Own<L: Lane> = PairState<L>;
-    /// Σ P ∇w over its separation, and B without the particle's own part.
-    type Sum<L: Lane> = ([L; D], L);
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> PairState<L> {
         PairState {
             pressure: all.numbers(self.pressure),
@@ -117,19 +114,18 @@ impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D
         }
     }
 
-    #[inline(always)]
+    /// Σ P ∇w over its separation, and B without the particle's own part.
     fn pair<L: Lane>(
         &self,
         own: &PairState<L>,
         j: usize,
         pair: &LanePair<D, L>,
-        sum: &mut Self::Sum<L>,
+        sum: &mut ([L; D], L),
     ) {
         let weight = self.weight.pair(*own, self.neighbour_state(j)) * pair.factor;
         add_scaled(&mut sum.0, &pair.separation, weight);
     }
 
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &PairState<L>,
@@ -139,22 +135,7 @@ impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D
     ) {
         sum.1 += self.weight.pair(*own, self.neighbour_state(j)) * pair.value;
     }
-}
 
-impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
-    #[inline(always)]
-    fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
-        let density = if P::DENSITY { self.density[j] } else { 0.0 };
-        PairState {
-            pressure: L::splat(self.pressure[j]),
-            volume: L::splat(self.volume[j]),
-            density: L::splat(density),
-        }
-    }
-}
-
-impl<const D: usize, P: PairPressure> BoundTerm<D> for BoundPressureGradient<'_, D, P> {
-    #[inline(always)]
     fn finish(
         &self,
         (sum, of_values): ([f64; D], f64),
@@ -186,5 +167,14 @@ impl<const D: usize, P: PairPressure> BoundTerm<D> for BoundPressureGradient<'_,
         }
         let inverse_mass = 1.0 / self.mass[at.particle];
         rates.acceleration -= sum * (inverse_mass * at.inverse_renormalisation);
+    }
+
+    fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
+        let density = if P::DENSITY { self.density[j] } else { 0.0 };
+        PairState {
+            pressure: L::splat(self.pressure[j]),
+            volume: L::splat(self.volume[j]),
+            density: L::splat(density),
+        }
     }
 }

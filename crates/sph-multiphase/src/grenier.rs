@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use sph_contribution::Stages;
 use sph_core::{Access, Evolved, Field, Scalar, Stage, StepError, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
-    Values, WallPoints, WallSet, World, add_scaled, dot, minus, pair_term, walk_into,
+    Around, Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, Values, WallPoints,
+    WallSet, World, add_scaled, dot, minus, pair_sum, pair_term, walk_into,
 };
 
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
@@ -140,25 +140,18 @@ struct BoundDivergence<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize> PairSum<D> for BoundPressure<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundPressure<'_, D> {
     /// p/d.
-    type Own<L: Lane> = L;
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.numbers::<L>(self.pressure) / all.numbers(self.kernel_sum)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let both = *own + L::splat(self.pressure[j] / self.kernel_sum[j]);
         let weight = L::splat(self.volume[j]) * both * pair.factor;
         add_scaled(sum, &pair.separation, weight);
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (own, inverse) = (self.pressure[i], 1.0 / self.kernel_sum[i]);
@@ -175,23 +168,16 @@ impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
     }
 }
 
-impl<const D: usize> PairSum<D> for BoundDivergence<'_, D> {
-    type Own<L: Lane> = [L; D];
-    type Sum<L: Lane> = L;
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundDivergence<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> [L; D] {
         all.vectors(self.velocity)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let apart = dot(&minus(own, &self.velocity[j]), &pair.separation);
         *sum -= L::splat(self.volume[j]) * apart * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
-    #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (velocity, points) = (self.velocity[i], &self.walls.points);

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use sph_core::{StepError, StepLimit, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints,
-    World, add_scaled, dot, minus, pair_term, unlike,
+    Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints, World,
+    add_scaled, dot, minus, pair_sum, pair_term, unlike,
 };
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
@@ -141,11 +141,8 @@ struct Own<const D: usize, L> {
     velocity: [L; D],
 }
 
-impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
-    type Own<L: Lane> = Own<D, L>;
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundInterfaceFriction<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [sound, wall_density] = all.each(|i| {
             let phase = self.phase[i] as usize;
@@ -161,7 +158,6 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
         }
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let zero = L::splat(0.0);
         let phase = self.phase[j];
@@ -187,11 +183,8 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
         let weight = counts.where_positive(signal * rate * pair.factor, zero);
         add_scaled(sum, &pair.separation.map(|r| r * weight), mass);
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));
         let velocity = self.velocity[at.particle];
@@ -216,11 +209,8 @@ impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
         }
         rates.acceleration += sum * (2.0 * self.length);
     }
-}
 
-impl<const D: usize> BoundInterfaceFriction<'_, D> {
     /// v, for a particle and a wall that part at a speed.
-    #[inline(always)]
     fn signal(&self, own: &Own<D, f64>, parting: f64) -> f64 {
         let steady = self.strength * own.dispersed_fraction * own.sound;
         steady + self.shocks * (-parting).clamp(0.0, own.sound)

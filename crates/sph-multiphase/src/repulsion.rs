@@ -3,8 +3,7 @@
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, add_scaled, pair_term,
-    unlike,
+    Lane, LanePair, Neighbourhood, Particles, Rates, add_scaled, pair_sum, pair_term, unlike,
 };
 
 use crate::{InterfaceEntry, offer_interface};
@@ -112,18 +111,14 @@ struct BoundRepulsion<'a, R: Repulsion> {
     phase: &'a [u32],
 }
 
-impl<const D: usize, R: Repulsion> PairSum<D> for BoundRepulsion<'_, R> {
+#[pair_sum]
+impl<const D: usize, R: Repulsion> BoundRepulsion<'_, R> {
     /// Pressure, volume, phase.
-    type Own<L: Lane> = [L; 3];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [L; 3] {
         let (pressure, volume) = (all.numbers(self.pressure), all.numbers(self.volume));
         [pressure, volume, all.phases(Some(self.phase))]
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(
         &self,
         [pressure, volume, phase]: &[L; 3],
@@ -141,11 +136,8 @@ impl<const D: usize, R: Repulsion> PairSum<D> for BoundRepulsion<'_, R> {
         let weight = R::weight(*pressure, *volume, there.0, there.1) * pair.factor;
         add_scaled(sum, &pair.separation, unlike.where_positive(weight, zero));
     }
-}
 
-impl<const D: usize, R: Repulsion> BoundTerm<D> for BoundRepulsion<'_, R> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let inverse_mass = 1.0 / self.mass[at.particle];
         rates.acceleration -= Vect::from(sum) * (self.weight.strength() * inverse_mass);

@@ -2,8 +2,7 @@
 
 use sph_core::{Access, Stage, StepError, StepLimit, Vect, fields, parameters, plugin, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
-    splat,
+    Lane, LanePair, Neighbourhood, Particles, Rates, World, dot, pair_sum, pair_term, splat,
 };
 
 use crate::contact_angle::{ContactAngle, FILM};
@@ -130,27 +129,6 @@ pub struct BoundSurfaceTension<'a, const D: usize> {
     isotropic: f64,
 }
 
-impl<const D: usize> BoundSurfaceTension<'_, D> {
-    /// That of the interface at a particle.
-    #[inline(always)]
-    fn stress(&self, i: usize) -> Stress<D, f64> {
-        let volume = self.volume[i];
-        Stress::new(
-            self.colour[i],
-            self.tension * volume * volume,
-            self.isotropic,
-        )
-    }
-
-    /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.
-    #[inline(always)]
-    fn film(&self, i: usize) -> Stress<D, f64> {
-        let volume = self.volume[i];
-        let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
-        Stress::new(film, -self.tension * volume * volume, 1.0)
-    }
-}
-
 /// σV² (|∇c| ι I − ∇c∇c/|∇c|).
 #[derive(Clone, Copy)]
 pub struct Stress<const D: usize, L> {
@@ -216,18 +194,14 @@ impl<const D: usize, L: Lane> Stress<D, L> {
     }
 }
 
-impl<const D: usize> PairSum<D> for BoundSurfaceTension<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundSurfaceTension<'_, D> {
     /// Stresses of the interface and of the film.
-    type Own<L: Lane> = [Stress<D, L>; 2];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    fn own<L: Lane>(&self, all: Particles) -> [Stress<D, L>; 2] {
         let stress = Stress::each(all, |i| self.stress(i));
         [stress, Stress::each(all, |i| self.film(i))]
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(
         &self,
         [stress, film]: &Self::Own<L>,
@@ -240,13 +214,27 @@ impl<const D: usize> PairSum<D> for BoundSurfaceTension<'_, D> {
             film.add_to(sum, &self.film(j).splat(), pair);
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundSurfaceTension<'_, D> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.acceleration += Vect::from(sum) * (1.0 / self.mass[at.particle]);
+    }
+
+    /// That of the interface at a particle.
+    fn stress(&self, i: usize) -> Stress<D, f64> {
+        let volume = self.volume[i];
+        Stress::new(
+            self.colour[i],
+            self.tension * volume * volume,
+            self.isotropic,
+        )
+    }
+
+    /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.
+    fn film(&self, i: usize) -> Stress<D, f64> {
+        let volume = self.volume[i];
+        let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
+        Stress::new(film, -self.tension * volume * volume, 1.0)
     }
 }
 

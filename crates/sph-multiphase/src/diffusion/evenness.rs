@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{
-    Around, Contact, ContactRow, Lane, LanePair, PairSum, Particles, Values, World, add_scaled,
-    lattice_sum, unlike, walk_in_lanes, walk_some,
+    Around, Contact, ContactRow, Lane, LanePair, Particles, Values, World, add_scaled, lattice_sum,
+    pair_sum, unlike, walk_in_lanes, walk_some,
 };
 
 /// Measures of the arrangement of a particle's neighbourhood.
@@ -122,24 +122,21 @@ struct FreeSums<'a> {
     between: f64,
 }
 
-impl<const D: usize> PairSum<D> for FreeSums<'_> {
+#[pair_sum]
+impl<const D: usize> FreeSums<'_> {
     const VALUES: bool = true;
-    /// The phase.
-    type Own<L: Lane> = L;
-    /// The filling, its gradient, the push, and ΣV∇w over other phases.
-    type Sum<L: Lane> = (L, [L; D], [L; D], [L; D]);
 
-    #[inline(always)]
+    /// The phase.
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.phases(self.phase)
     }
-    #[inline(always)]
+    /// The filling, its gradient, the push, and ΣV∇w over other phases.
     fn pair<L: Lane>(
         &self,
         phase: &L,
         j: usize,
         pair: &LanePair<D, L>,
-        (filling, gradient, push, colour): &mut Self::Sum<L>,
+        (filling, gradient, push, colour): &mut (L, [L; D], [L; D], [L; D]),
     ) {
         let volume = L::splat(self.volume[j]);
         let weight = volume * pair.factor;

@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled, dot,
-    pair_term, splat, unlike,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, add_scaled, dot, pair_sum, pair_term,
+    splat, unlike,
 };
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
@@ -65,12 +65,8 @@ pub struct Own<const D: usize, L> {
     phase: L,
 }
 
-impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
-    type Own<L: Lane> = Own<D, L>;
-    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
-    type Sum<L: Lane> = ([L; D], L, L);
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundShiftTransport<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         Own {
             shift: all.vectors(self.shift),
@@ -84,13 +80,13 @@ impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
         }
     }
 
-    #[inline(always)]
+    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
     fn pair<L: Lane>(
         &self,
         own: &Own<D, L>,
         j: usize,
         pair: &LanePair<D, L>,
-        sums: &mut Self::Sum<L>,
+        sums: &mut ([L; D], L, L),
     ) {
         let volume = L::splat(self.volume[j]);
         let along = dot(&own.shift, &pair.separation);
@@ -108,10 +104,7 @@ impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
         let nearer = along - dot(&splat(&self.shift[j]), &pair.separation);
         sums.1 -= own.summed * nearer * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundShiftTransport<'_, D> {
-    #[inline(always)]
     fn finish(
         &self,
         (taken_up, mut rate, rearranged): ([f64; D], f64, f64),

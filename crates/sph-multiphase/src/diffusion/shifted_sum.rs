@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term, splat,
+    Lane, LanePair, Neighbourhood, Particles, Rates, dot, pair_sum, pair_term, splat,
 };
 
 /// dρ/dt −= m_a Σ_b s_a s_b [(s_a − s_b)·∇w_ab + w_ab (σ_a + σ_b)], b = a included, with σ = s·∇ln s of the shift velocity:
@@ -24,33 +24,21 @@ pub struct BoundShiftedSum<'a, const D: usize> {
     slope: Option<&'a [Vect<D>]>,
 }
 
+#[pair_sum]
 impl<const D: usize> BoundShiftedSum<'_, D> {
-    /// s·∇ln s of a particle, 1/s.
-    #[inline(always)]
-    fn scale_rate(&self, i: usize) -> f64 {
-        self.slope.map_or(0.0, |g| g[i].dot(&self.shift[i]))
-    }
-}
-
-impl<const D: usize> PairSum<D> for BoundShiftedSum<'_, D> {
     const SCALED: bool = true;
-    /// Shift velocity and its part along ∇ ln s.
-    type Own<L: Lane> = ([L; D], L);
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    /// Shift velocity and its part along ∇ ln s.
+    fn own<L: Lane>(&self, all: Particles) -> ([L; D], L) {
         let [along] = all.each(|i| [self.scale_rate(i)]);
         (all.vectors(self.shift), along)
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let other = dot(&splat(&self.shift[j]), &pair.separation);
         *sum += (dot(&own.0, &pair.separation) - other) * pair.factor;
     }
 
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &Self::Own<L>,
@@ -60,10 +48,7 @@ impl<const D: usize> PairSum<D> for BoundShiftedSum<'_, D> {
     ) {
         *sum += pair.value * (own.1 + L::splat(self.scale_rate(j)));
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundShiftedSum<'_, D> {
-    #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         if self.void_fraction[i] == 0.0 {
@@ -73,5 +58,10 @@ impl<const D: usize> BoundTerm<D> for BoundShiftedSum<'_, D> {
             sum += 2.0 * scale.own_value * self.scale_rate(i);
         }
         rates.scalar -= self.mass[i] * sum;
+    }
+
+    /// s·∇ln s of a particle, 1/s.
+    fn scale_rate(&self, i: usize) -> f64 {
+        self.slope.map_or(0.0, |g| g[i].dot(&self.shift[i]))
     }
 }

@@ -2,9 +2,7 @@
 
 use rayon::prelude::*;
 use sph_core::{Access, Stage, Symmetric, Vect, fields, stage};
-use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, PairSum, Particles, World, add_scaled, walk_in_lanes,
-};
+use sph_neighbours::{Lane, LanePair, Neighbourhood, World, add_scaled, pair_sum, walk_in_lanes};
 
 use super::half_space::HalfSpace;
 
@@ -31,16 +29,18 @@ const UNEVEN: f64 = 0.05;
 /// Σ w, Σ ∇w and −Σ r⊗∇w of free neighbours.
 struct Moments;
 
-impl<const D: usize> PairSum<D> for Moments {
+#[pair_sum]
+impl<const D: usize> Moments {
     const VALUES: bool = true;
     const SCALED: bool = true;
-    type Own<L: Lane> = ();
-    type Sum<L: Lane> = (L, [L; D], [L; 6]);
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, _: Particles) {}
-    #[inline(always)]
-    fn pair<L: Lane>(&self, _: &(), _: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
+    fn pair<L: Lane>(
+        &self,
+        _: &(),
+        _: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut (L, [L; D], [L; 6]),
+    ) {
         sum.0 += pair.value;
         add_scaled(&mut sum.1, &pair.separation, pair.factor);
         let r = &pair.separation;

@@ -47,15 +47,15 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         let (mut wall, mut source) = (E::ZERO, Vect::zeros());
         for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [even, along] = self.at_point(&here, self.points.volume[v], &pair, rubbing);
+            let [even, along] = self.at_point(&here, self.walls.points.volume[v], &pair, rubbing);
             let friction = E::central(even, along, &pair.separation);
             wall = wall + friction;
-            source += friction.apply(&self.points.viscous_velocity[v]);
+            source += friction.apply(&self.walls.points.viscous_velocity[v]);
         }
         let correction = self.correction_of(&here, rows);
         for contact in rows.contacts {
-            let normal = &self.elements.normal[contact.element as usize];
-            let moving = self.elements.velocity_at(&contact);
+            let normal = &self.walls.elements.normal[contact.element as usize];
+            let moving = self.walls.elements.velocity_at(&contact);
             let friction = correction * self.weight(&here, &contact);
             let (friction, drawn) = at_element(&here, normal, moving, friction);
             wall = wall + friction;
@@ -80,9 +80,9 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             sum.discrete += pair.separation * shear;
         }
         for (v, pair) in rows.wall.pairs() {
-            let there = self.points.volume[v];
+            let there = self.walls.points.volume[v];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * (self.points.share[v] * shear);
+            sum.discrete += pair.separation * (self.walls.points.share[v] * shear);
         }
         for contact in rows.contacts {
             if !self.is_open(contact.element) {
