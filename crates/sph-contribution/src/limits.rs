@@ -20,6 +20,43 @@ pub trait Limiter<const D: usize>: Send + Sync {
     }
 }
 
+/// The bound that a function gives, s, with its name, formula and remedy.
+pub fn bound<const D: usize>(
+    name: &'static str,
+    formula: impl Into<String>,
+    remedy: Option<&'static str>,
+    dt: impl Fn(&World<D>) -> Result<f64, StepError> + Send + Sync,
+) -> impl Limiter<D> {
+    FunctionLimit {
+        name,
+        formula: formula.into(),
+        remedy,
+        dt,
+    }
+}
+
+struct FunctionLimit<F> {
+    name: &'static str,
+    formula: String,
+    remedy: Option<&'static str>,
+    dt: F,
+}
+
+impl<const D: usize, F> Limiter<D> for FunctionLimit<F>
+where
+    F: Fn(&World<D>) -> Result<f64, StepError> + Send + Sync,
+{
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        Ok(StepLimit::new(self.name, (self.dt)(world)?))
+    }
+    fn formula(&self) -> String {
+        self.formula.clone()
+    }
+    fn remedy(&self) -> Option<String> {
+        self.remedy.map(String::from)
+    }
+}
+
 /// Δt ≤ C h / c with the largest local speed of sound, Ghaïtanellis 2017, Eq. 2.104.
 pub struct SoundLimit {
     /// C.
@@ -66,29 +103,24 @@ impl<const D: usize> Limiter<D> for SoundLimit {
 
 /// Δt ≤ (h/c)/√Λ, Λ the largest ratio of the inertia of a layer of fluid of the thickness h at a body to that of the
 /// body: the compressed layer is a spring between both, which an explicit step twice as long would swing up.
-pub struct LightBodyLimit {
-    /// The equations of state.
-    pub laws: Laws,
-}
-
-impl<const D: usize> Limiter<D> for LightBodyLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let references = self.laws.iter().map(|law| law.reference());
-        let stiffness = references.map(|r| r.density * r.sound_speed.powi(2));
-        let stiffest = stiffness.fold(0.0, f64::max);
-        let bodies = world.walls.bodies.iter();
-        let lightness = bodies.map(|body| lightness(body, &world.walls.elements));
-        let lightest = lightness.fold(0.0, f64::max);
-        let h = world.kernel.smoothing_length();
-        let dt = (h / (stiffest * lightest)).sqrt();
-        Ok(StepLimit::new("light body", dt))
-    }
-    fn remedy(&self) -> Option<String> {
-        Some("a heavier or thicker body lengthens the step, and `[pressure.implicit]` needs no such bound".into())
-    }
-    fn formula(&self) -> String {
-        "light body: dt <= (h / c) sqrt(inertia of the body / that of a layer h of fluid)".into()
-    }
+pub fn light_body_limit<const D: usize>(laws: &Laws) -> impl Limiter<D> + use<D> {
+    let references = laws.iter().map(|law| law.reference());
+    let stiffness = references.map(|r| r.density * r.sound_speed.powi(2));
+    let stiffest = stiffness.fold(0.0, f64::max);
+    let formula =
+        "light body: dt <= (h / c) sqrt(inertia of the body / that of a layer h of fluid)";
+    let remedy = "a heavier or thicker body lengthens the step, and `[pressure.implicit]` needs no such bound";
+    bound(
+        "light body",
+        formula,
+        Some(remedy),
+        move |world: &World<D>| {
+            let bodies = world.walls.bodies.iter();
+            let lightness = bodies.map(|body| lightness(body, &world.walls.elements));
+            let lightest = lightness.fold(0.0, f64::max);
+            Ok((world.kernel.smoothing_length() / (stiffest * lightest)).sqrt())
+        },
+    )
 }
 
 /// Δt ≤ C √(h / |a|) with the largest acceleration.

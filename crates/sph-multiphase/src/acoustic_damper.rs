@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-use sph_core::{Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
+use sph_core::{Stage, StepError, Symmetric, Vect, fields, plugin, stage};
 use sph_neighbours::{
     Lane, LanePair, Neighbourhood, Particles, Rates, Sums, Values, WallSet, World, add_scaled,
     all_sums, declared, pair_sum, pair_term, walk_some,
@@ -52,11 +52,8 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         offer.stage(resistance(laws.clone().map(impedance).collect(), densities));
         offer.term(DampingForce);
         if self.strength > 0.0 {
-            offer.limiter(DamperLimit {
-                strength: self.strength,
-                fastest: laws.map(|r| r.sound_speed).fold(0.0, f64::max),
-                wave: OnceLock::new(),
-            });
+            let fastest = laws.map(|r| r.sound_speed).fold(0.0, f64::max);
+            offer.limiter(damper_limit(self.strength, fastest));
         }
         offer.remedy = Some(format!("lower the strength in {}", offer.path));
         Ok(())
@@ -135,26 +132,21 @@ fn lightest<const D: usize>(
 }
 
 /// Δt ≤ 1/(α h c S²), S = max_k ΣV|∂w/∂x sin kx| on a lattice, 1.2/h: half of where the fastest mode would be turned round.
-struct DamperLimit {
-    strength: f64,
-    fastest: f64,
-    /// S, 1/m: lattice and kernel stay.
-    wave: OnceLock<f64>,
-}
-
-impl<const D: usize> Limiter<D> for DamperLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let wave = self.wave.get_or_init(|| shortest_wave(world));
-        let h = world.kernel.smoothing_length();
-        let dt = 1.0 / (self.strength * h * self.fastest * wave * wave);
-        Ok(StepLimit::new("acoustic damper", dt))
-    }
-    fn remedy(&self) -> Option<String> {
-        Some("a smaller `strength` of the damper lengthens the step".into())
-    }
-    fn formula(&self) -> String {
-        format!("acoustic damper: dt <= 1 / ({} h c S²)", self.strength)
-    }
+fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> {
+    let formula = format!("acoustic damper: dt <= 1 / ({strength} h c S²)");
+    let remedy = "a smaller `strength` of the damper lengthens the step";
+    // Lattice and kernel stay.
+    let wave = OnceLock::new();
+    bound(
+        "acoustic damper",
+        formula,
+        Some(remedy),
+        move |world: &World<D>| {
+            let wave = wave.get_or_init(|| shortest_wave(world));
+            let h = world.kernel.smoothing_length();
+            Ok(1.0 / (strength * h * fastest * wave * wave))
+        },
+    )
 }
 
 /// The force of [`AcousticDamper`].

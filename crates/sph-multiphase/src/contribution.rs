@@ -1,13 +1,13 @@
 //! Formulations and interfaces in a scene.
 
 use sph_contribution::{
-    Contribution, FromPlugins, LightBodyLimit, Offer, Plugins, Refusal, Setting, SoundLimit,
-    contributes,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, SoundLimit, contributes,
+    light_body_limit,
 };
 
 use crate::{
-    Acting, Dilatation, Formulation, FormulationEntry, InterfaceLimit, PressureEntry,
-    PressureScheme, PressureStage,
+    Acting, Dilatation, Formulation, FormulationEntry, PressureEntry, PressureScheme,
+    PressureStage, interface_limit,
 };
 
 /// The formulation that a scene names, with its equations of state.
@@ -40,12 +40,11 @@ impl<const D: usize> Compressible<D> {
             courant: setting.courant,
             laws: setting.laws.clone(),
         });
-        if let Some(limit) = InterfaceLimit::new(setting.laws) {
+        if let Some(limit) = interface_limit(setting.laws) {
             offer.limiter(limit);
         }
         if !setting.world.walls.bodies.is_empty() {
-            let laws = setting.laws.clone();
-            offer.limiter(LightBodyLimit { laws });
+            offer.limiter(light_body_limit(setting.laws));
         }
     }
 }

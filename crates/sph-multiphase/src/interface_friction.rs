@@ -1,14 +1,12 @@
 //! Dissipation between phases.
 
-use std::sync::Arc;
-
-use sph_core::{StepError, StepLimit, Vect, fields, plugin};
+use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
     Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints, World,
     add_scaled, dot, minus, pair_sum, pair_term, unlike,
 };
 
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
 use sph_neighbours::lattice_sum;
 use sph_rheology::state::Laws;
 
@@ -54,18 +52,18 @@ impl<const D: usize> Contribution<D> for InterfaceFriction {
         let light = damping.wall_density.iter();
         let light = light.map(|density| *density > 0.0).collect();
         offer.stage(dispersed_fraction(light));
-        offer.limiter(DampingLimit(damping.clone()));
+        let fastest = damping.sound.iter().fold(0.0, |a: f64, c| a.max(*c));
+        offer.limiter(damping_limit(*self, fastest));
         offer_interface(Box::new(damping), setting, offer)
     }
 }
 
 /// The term of [`InterfaceFriction`] with the speeds of sound of the phases.
-#[derive(Clone, Debug)]
 struct Damping {
     friction: InterfaceFriction,
-    sound: Arc<[f64]>,
+    sound: Vec<f64>,
     /// Density that walls have for a phase, kg/m³: that of the heaviest, nothing for that itself.
-    wall_density: Arc<[f64]>,
+    wall_density: Vec<f64>,
 }
 
 impl Damping {
@@ -83,22 +81,22 @@ impl Damping {
 
 /// Δt ≤ 1/λ for the rate λ at which a light particle among heavy ones is stopped, if it closes with them at the speed of sound.
 /// With the present speed in its place the step would be 1.2 times as long, and single particles of air fast enough to fail.
-struct DampingLimit(Damping);
-
-impl<const D: usize> Limiter<D> for DampingLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let fastest = self.0.sound.iter().fold(0.0, |a: f64, c| a.max(*c));
-        let sum = lattice_sum(world, |pair| {
-            -pair.factor * pair.separation[0].powi(2) / pair.distance2
-        });
-        let cell = world.spacing.powi(D as i32);
-        let strength = self.0.friction.strength + self.0.friction.shocks;
-        let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
-        Ok(StepLimit::new("interface friction", 1.0 / rate))
-    }
-    fn formula(&self) -> String {
-        "interface friction: dt <= 1/rate at which a light particle is stopped".into()
-    }
+fn damping_limit<const D: usize>(friction: InterfaceFriction, fastest: f64) -> impl Limiter<D> {
+    let formula = "interface friction: dt <= 1/rate at which a light particle is stopped";
+    bound(
+        "interface friction",
+        formula,
+        None,
+        move |world: &World<D>| {
+            let sum = lattice_sum(world, |pair| {
+                -pair.factor * pair.separation[0].powi(2) / pair.distance2
+            });
+            let cell = world.spacing.powi(D as i32);
+            let strength = friction.strength + friction.shocks;
+            let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
+            Ok(1.0 / rate)
+        },
+    )
 }
 
 /// [`Damping`] with its columns.

@@ -59,7 +59,7 @@ pub use gradient::{
 pub use grenier::Grenier;
 pub use hu_adams::HuAdams;
 pub use interface_friction::InterfaceFriction;
-pub use interface_limit::InterfaceLimit;
+pub use interface_limit::interface_limit;
 pub use krimi::{Continuity, Krimi};
 pub use pressure_stage::PressureStage;
 pub use repulsion::{GrenierInterface, MicroMixing};

@@ -62,4 +62,4 @@ pub use precondition::Preconditioner;
 pub use scheme::{
     BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,
 };
-pub use solver::{LinearSolver, LinearSolverEntry, Report};
+pub use solver::{LinearSolver, LinearSolverEntry, LinearSystem, Report};

@@ -8,4 +8,4 @@ mod implicit;
 mod stage;
 mod system;
 
-pub use implicit::{FlowLimit, ImplicitPressure};
+pub use implicit::ImplicitPressure;

@@ -1,16 +1,14 @@
 //! Surface tension as a continuous surface stress.
 
-use sph_core::{Access, Stage, StepError, StepLimit, Vect, fields, parameters, plugin, stage};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
+use sph_core::{Access, Stage, Vect, fields, parameters, plugin, stage};
 use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, Particles, Rates, World, dot, pair_sum, pair_term, splat,
+    Around, Lane, LanePair, Neighbourhood, Particles, Rates, Values, World, dot, pair_sum,
+    pair_term, splat, walk_into,
 };
 
 use crate::contact_angle::{ContactAngle, FILM};
 use crate::{InterfaceEntry, offer_interface};
-
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-
-use sph_neighbours::{Around, Values, walk_into};
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
 /// Π = σ/|∇c| (|∇c|² ι I − ∇c ∇c) and the gradient of the colour of all other phases,
@@ -73,7 +71,7 @@ impl<const D: usize> Contribution<D> for SurfaceTension {
             offer.stage(angle.films(setting));
         }
         if self.tension > 0.0 {
-            offer.limiter(CapillaryLimit(self.tension));
+            offer.limiter(capillary_limit(self.tension));
         }
         Ok(())
     }
@@ -239,17 +237,13 @@ impl<const D: usize> BoundSurfaceTension<'_, D> {
 }
 
 /// Δt ≤ ¼ √(ρ h³/2πσ).
-struct CapillaryLimit(f64);
-
-impl<const D: usize> Limiter<D> for CapillaryLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+fn capillary_limit<const D: usize>(tension: f64) -> impl Limiter<D> {
+    let formula = "surface tension: dt <= 0.25 sqrt(ρ h³ / 2πσ)";
+    bound("surface tension", formula, None, move |world: &World<D>| {
         let density = world.free.get(fields::DENSITY)?;
         let least = density.iter().copied().fold(f64::INFINITY, f64::min);
         let h = world.kernel.smoothing_length();
-        let shortest = least * h.powi(3) / (std::f64::consts::TAU * self.0);
-        Ok(StepLimit::new("surface tension", 0.25 * shortest.sqrt()))
-    }
-    fn formula(&self) -> String {
-        "surface tension: dt <= 0.25 sqrt(ρ h³ / 2πσ)".into()
-    }
+        let shortest = least * h.powi(3) / (std::f64::consts::TAU * tension);
+        Ok(0.25 * shortest.sqrt())
+    })
 }

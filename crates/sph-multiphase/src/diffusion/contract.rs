@@ -4,7 +4,7 @@ use sph_contribution::{Contribution, Offer, Setting, contribution_kind};
 use sph_core::{FlowNature, LawNature, SuitedPlugin, Work};
 use sph_neighbours::Interaction;
 
-use crate::diffusion::diffusion_limit::{DiffusionLimit, fastest};
+use crate::diffusion::diffusion_limit::{diffusion_limit, fastest};
 use crate::diffusion::{Accelerated, MeanAcceleration};
 
 contribution_kind!(
@@ -75,10 +75,8 @@ impl<const D: usize> Smoothing<D> {
         let laws = setting.laws;
         offer.terms.push(self.term);
         offer.changes_density = true;
-        if !(setting.pressure_ahead && self.of_pressures) {
-            offer
-                .limiters
-                .extend(DiffusionLimit::boxed(self.strength, laws));
+        if self.strength > 0.0 && !(setting.pressure_ahead && self.of_pressures) {
+            offer.limiter(diffusion_limit(self.strength, laws));
         }
         if let Some(of) = self.accelerated {
             offer.hook(MeanAcceleration::new(of, fastest(laws)));

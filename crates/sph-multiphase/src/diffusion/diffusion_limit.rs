@@ -1,10 +1,7 @@
 //! The step limit of pressure smoothers.
 
-use sph_core::{StepError, StepLimit};
-use sph_neighbours::World;
-
-use sph_contribution::Limiter;
-use sph_neighbours::lattice_sum;
+use sph_contribution::{Limiter, bound};
+use sph_neighbours::{World, lattice_sum};
 use sph_rheology::state::Laws;
 
 /// Of λΔt: 1.45 for a chequerboard on a lattice, where it may be 2, and particles are not on one.
@@ -21,37 +18,22 @@ pub(crate) fn fastest(laws: &Laws) -> f64 {
 ///
 /// ΣV|F| is 3.5/h² for Wendland C2. With Δt = 0.4 h/c it binds from δ = 0.45 on; without it δ = 1 blows a tank at
 /// rest up. Ours.
-#[derive(Clone, Debug)]
-pub struct DiffusionLimit {
-    /// δ.
+pub(crate) fn diffusion_limit<const D: usize>(
     strength: f64,
-    fastest: f64,
-}
-
-impl DiffusionLimit {
-    /// Of a smoother; nothing for one that does nothing.
-    pub fn boxed<const D: usize>(strength: f64, laws: &Laws) -> Option<Box<dyn Limiter<D>>> {
-        let limit = DiffusionLimit {
-            strength,
-            fastest: fastest(laws),
-        };
-        (strength > 0.0).then(|| Box::new(limit) as _)
-    }
-}
-
-impl<const D: usize> Limiter<D> for DiffusionLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let cell = world.spacing.powi(D as i32);
-        let sum = 2.0 * cell * lattice_sum(world, |pair| -pair.factor);
-        let h = world.kernel.smoothing_length();
-        let dt = STABLE / (self.strength * h * self.fastest * sum);
-        Ok(StepLimit::new("smoother", dt))
-    }
-    fn remedy(&self) -> Option<String> {
-        Some("a smaller `strength` of the smoother lengthens the step".into())
-    }
-    fn formula(&self) -> String {
-        let delta = self.strength;
-        format!("smoother: dt <= {STABLE} / (2 {delta} h c ΣV|F|)")
-    }
+    laws: &Laws,
+) -> impl Limiter<D> + use<D> {
+    let fastest = fastest(laws);
+    let formula = format!("smoother: dt <= {STABLE} / (2 {strength} h c ΣV|F|)");
+    let remedy = "a smaller `strength` of the smoother lengthens the step";
+    bound(
+        "smoother",
+        formula,
+        Some(remedy),
+        move |world: &World<D>| {
+            let cell = world.spacing.powi(D as i32);
+            let sum = 2.0 * cell * lattice_sum(world, |pair| -pair.factor);
+            let h = world.kernel.smoothing_length();
+            Ok(STABLE / (strength * h * fastest * sum))
+        },
+    )
 }

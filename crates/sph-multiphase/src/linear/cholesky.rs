@@ -6,9 +6,9 @@ use sparse::{Order, SparseError, UpperTriangle};
 use sph_core::{Vect, plugin};
 
 use crate::linear::matrix::{Entries, Matrix, Values};
-use crate::linear::vector::norm;
+use crate::linear::vector::{add, norm};
 use crate::linear::{
-    Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, SolveError,
+    Entry, LinearSolver, LinearSolverEntry, LinearSystem, Pattern, Report, SolveError,
 };
 
 /// A = L Lᵀ by faer, with the order of elimination kept while the pattern stays the same.
@@ -51,11 +51,10 @@ const REFINE: f64 = 1e-10;
 const REFUSE: f64 = 1e-4;
 
 impl<const D: usize> LinearSolver<D> for Cholesky {
-    fn solve(
+    fn solve_to(
         &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
+        (operator, right, x): LinearSystem<'_, D>,
+        _: f64,
     ) -> Result<Report, SolveError> {
         let matrix = operator.whole_matrix(METHOD)?;
         if right.is_empty() {
@@ -81,7 +80,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         if norm(&rest) > REFINE * scale {
             let mut correction = vec![Vect::zeros(); rest.len()];
             solve(kept, &rest, &mut correction);
-            crate::linear::vector::add(x, 1.0, &correction);
+            add(x, 1.0, &correction);
             operator.residual(right, x, &mut rest);
         }
         let relative = norm(&rest) / scale;

@@ -6,7 +6,8 @@ use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::memory::{Memory, Vectors};
 use crate::linear::vector::{add, scale_and_add};
 use crate::linear::{
-    LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner, Report, SolveError,
+    LinearSolver, LinearSolverEntry, LinearSystem, Memories, Operator, Preconditioner, Report,
+    SolveError,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -44,31 +45,15 @@ const METHOD: &str = "conjugate gradients";
 const PREPARE: usize = 3;
 
 impl<const D: usize> LinearSolver<D> for ConjugateGradient {
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
-        self.solve_roughly(operator, right, x, 0.0)
-    }
-
     fn needs_entries(&self, _: &dyn Operator<D>) -> bool {
         self.preconditioner.factorises()
     }
 
-    fn solve_roughly(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-        enough: f64,
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> Result<Report, SolveError> {
         let tolerance = Tolerance {
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
         };
-        let system = (operator, right, x);
         self.memories
             .with_memory(|memory| iterate(self.preconditioner, tolerance, memory, system))
     }
@@ -82,7 +67,7 @@ pub(crate) fn iterate<const D: usize>(
     preconditioner: Preconditioner,
     tolerance: Tolerance,
     memory: &mut Memory<D>,
-    (operator, right, x): (&dyn Operator<D>, &[Vect<D>], &mut [Vect<D>]),
+    (operator, right, x): LinearSystem<'_, D>,
 ) -> Result<Report, SolveError> {
     let Memory {
         history,
@@ -110,7 +95,6 @@ pub(crate) fn iterate<const D: usize>(
     z.resize(r.len(), Vect::zeros());
     precondition.apply(r, z);
     direction.clone_from(z);
-    direction.resize(operator.columns(), Vect::zeros());
     image.resize(r.len(), Vect::zeros());
     let mut slope = operator.inner(r, z);
     let (mut prepared, mut halves) = (None, Some(halves));
@@ -134,7 +118,7 @@ pub(crate) fn iterate<const D: usize>(
         }
         precondition.apply(r, z);
         let next = operator.inner(r, z);
-        scale_and_add(&mut direction[..z.len()], next / slope, z);
+        scale_and_add(direction, next / slope, z);
         slope = next;
     }
 }

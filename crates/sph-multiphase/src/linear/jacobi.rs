@@ -4,7 +4,7 @@ use sph_core::Vect;
 
 use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
-use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
+use crate::linear::{LinearSolver, LinearSystem, Preconditioner, Report, SolveError};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
 ///
@@ -21,11 +21,10 @@ pub struct Jacobi {
 const METHOD: &str = "Jacobi";
 
 impl<const D: usize> LinearSolver<D> for Jacobi {
-    fn solve(
+    fn solve_to(
         &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
+        (operator, right, x): LinearSystem<'_, D>,
+        _: f64,
     ) -> Result<Report, SolveError> {
         let tolerance = Tolerance {
             residual: self.tolerance,

@@ -10,7 +10,7 @@ use crate::linear::{Diagonal, Matrix, Operator};
 pub struct LowRank<'a, const D: usize> {
     /// A.
     pub base: &'a dyn Operator<D>,
-    /// g, with a value for every column of A.
+    /// g, with a value for every row of A.
     pub vectors: &'a [Vec<Vect<D>>],
     /// s.
     pub sign: f64,
@@ -20,14 +20,8 @@ impl<const D: usize> Operator<D> for LowRank<'_, D> {
     fn rows(&self) -> usize {
         self.base.rows()
     }
-    fn columns(&self) -> usize {
-        self.base.columns()
-    }
     fn import(&self, x: &mut [Vect<D>]) {
         self.base.import(x);
-    }
-    fn total(&self, part: f64) -> f64 {
-        self.base.total(part)
     }
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
         self.base.inner(x, y)

@@ -7,30 +7,19 @@ use crate::linear::{Diagonal, Halved, Halves, Matrix, SolveError};
 
 /// A symmetric operator on vectors of particles, with or without a matrix behind it.
 ///
-/// Rows are those of particles of one's own. Columns are the same particles and, after them, copies of particles
-/// whose rows are elsewhere, across a seam or in another process. [`import`](Operator::import) gives copies the values
-/// of their owners, [`total`](Operator::total) adds the sums of all owners of rows. A [`Matrix`] has no copies.
+/// Some rows may be of copies of particles that are at home elsewhere, across a seam or in another process.
+/// [`import`](Operator::import) gives copies the values of their owners, [`inner`](Operator::inner) sums over all owners.
+/// A [`Matrix`] has no copies.
 pub trait Operator<const D: usize>: Sync {
-    /// Rows: particles of one's own.
+    /// Number of rows, those of copies included.
     fn rows(&self) -> usize;
 
-    /// Columns: the rows, then the copies.
-    fn columns(&self) -> usize {
-        self.rows()
-    }
-
-    /// Gives the copies, x\[rows..columns\], the values of their owners.
+    /// Gives the copies the values of their owners.
     fn import(&self, _x: &mut [Vect<D>]) {}
 
-    /// The sum over the owners of all rows of the sums that each has over its own; the same bits for all.
-    fn total(&self, part: f64) -> f64 {
-        part
-    }
-
-    /// Σ x·y over all rows, in an order that does not depend on the number of threads; the same bits for all.
+    /// Σ x·y over all particles, in an order that does not depend on the number of threads; the same bits for all.
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
-        let rows = self.rows();
-        self.total(inner(&x[..rows], &y[..rows]))
+        inner(x, y)
     }
 
     /// True if it holds for every part of a divided system; all must call it.
@@ -40,10 +29,10 @@ pub trait Operator<const D: usize>: Sync {
 
     /// True if all rows and their couplings are here.
     fn is_whole(&self) -> bool {
-        self.columns() == self.rows()
+        true
     }
 
-    /// y = A x; x has a value for every column, y for every row.
+    /// y = A x, in the rows of copies as their owners have it.
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]);
 
     /// The same operator in a form that is worth its making where many products are needed; none where there is no such
@@ -85,13 +74,7 @@ impl<const D: usize> dyn Operator<D> + '_ {
     /// r = b − A x.
     pub(crate) fn residual(&self, right: &[Vect<D>], x: &[Vect<D>], r: &mut Vec<Vect<D>>) {
         r.resize(right.len(), Vect::zeros());
-        if self.columns() == self.rows() {
-            self.multiply(x, r);
-        } else {
-            let mut x = x.to_vec();
-            x.resize(self.columns(), Vect::zeros());
-            self.apply(&mut x, r);
-        }
+        self.multiply(x, r);
         r.iter_mut().zip(right).for_each(|(r, b)| *r = b - *r);
     }
 

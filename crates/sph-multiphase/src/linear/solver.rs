@@ -17,32 +17,29 @@ pub struct Report {
     pub bytes: usize,
 }
 
+/// A, b and x of A x = b; b and x have a value for every row, x that of the start.
+pub type LinearSystem<'s, const D: usize> = (&'s dyn Operator<D>, &'s [Vect<D>], &'s mut [Vect<D>]);
+
 /// Solves symmetric positive definite systems.
 pub trait LinearSolver<const D: usize>: Send {
-    /// Solves A x = b, starting from x; right and x have a value for every row.
+    /// Solves a system within an outer iteration: a relative residual of `enough` will do, where stopping early saves
+    /// work.
     ///
     /// # Errors
     /// If the residual is above the tolerance; x is then no better than a start for another solver.
+    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> Result<Report, SolveError>;
+
+    /// Solves A x = b, starting from x.
+    ///
+    /// # Errors
+    /// As [`solve_to`](LinearSolver::solve_to).
     fn solve(
         &mut self,
         operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError>;
-
-    /// The same within an outer iteration: a relative residual of `enough` will do, where stopping
-    /// early saves work.
-    ///
-    /// # Errors
-    /// As [`solve`](LinearSolver::solve).
-    fn solve_roughly(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-        _enough: f64,
     ) -> Result<Report, SolveError> {
-        self.solve(operator, right, x)
+        self.solve_to((operator, right, x), 0.0)
     }
 
     /// True if it needs the entries of an operator in any case, and not for products and the diagonal alone.

@@ -1,8 +1,8 @@
 //! The plugin: when pressure acts.
 
 use rayon::prelude::*;
-use sph_contribution::{Limiter, Setting, SoundLimit};
-use sph_core::{Stage, StepError, StepLimit, fields, plugin};
+use sph_contribution::{Limiter, Setting, SoundLimit, bound};
+use sph_core::{Stage, fields, plugin};
 use sph_neighbours::World;
 
 use crate::linear::Automatic;
@@ -52,10 +52,7 @@ impl<const D: usize> PressureScheme<D> for ImplicitPressure {
             courant: setting.courant,
             laws: setting.laws.clone(),
         };
-        vec![Box::new(FlowLimit {
-            courant: self.courant,
-            sound,
-        })]
+        vec![Box::new(flow_limit(self.courant, sound))]
     }
 }
 
@@ -64,15 +61,11 @@ const GROWTH: f64 = 1.1;
 
 /// Δt ≤ C h/(|u|max + √(|g| h)), at the start that of sound and then a tenth more from step to step; √(|g| h) is the speed of the
 /// shortest waves on a free surface.
-pub struct FlowLimit {
-    /// C.
-    pub courant: f64,
-    /// The step that always goes.
-    pub sound: SoundLimit,
-}
-
-impl<const D: usize> Limiter<D> for FlowLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+fn flow_limit<const D: usize>(courant: f64, sound: SoundLimit) -> impl Limiter<D> {
+    let formula =
+        format!("flow: dt <= {courant} h / (|u| + sqrt(|g| h)), and {GROWTH} times the last");
+    let remedy = "a larger `pressure.implicit.courant` lengthens the step in proportion";
+    bound("flow", formula, Some(remedy), move |world: &World<D>| {
         let velocity = world.free.get(fields::VELOCITY)?;
         let squared = velocity.par_iter().with_min_len(1024).map(|u| {
             let squared = u.norm_squared();
@@ -84,18 +77,8 @@ impl<const D: usize> Limiter<D> for FlowLimit {
         });
         let fastest = squared.reduce(|| 0.0, f64::max).sqrt();
         let h = world.kernel.smoothing_length();
-        let flow = self.courant * h / (fastest + (world.gravity.norm() * h).sqrt());
-        let sound = self.sound.limit(world)?.dt;
-        let longest = sound.max(GROWTH * world.dt);
-        Ok(StepLimit::new("flow", flow.min(longest)))
-    }
-    fn formula(&self) -> String {
-        format!(
-            "flow: dt <= {} h / (|u| + sqrt(|g| h)), and {GROWTH} times the last",
-            self.courant
-        )
-    }
-    fn remedy(&self) -> Option<String> {
-        Some("a larger `pressure.implicit.courant` lengthens the step in proportion".into())
-    }
+        let flow = courant * h / (fastest + (world.gravity.norm() * h).sqrt());
+        let longest = sound.limit(world)?.dt.max(GROWTH * world.dt);
+        Ok(flow.min(longest))
+    })
 }

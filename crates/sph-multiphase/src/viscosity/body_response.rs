@@ -173,7 +173,7 @@ impl<const D: usize> Bodies<D> {
         let mut vectors = Vec::new();
         for one in &self.0 {
             let column = |v: &Vector6<f64>| {
-                let mut g = vec![Vect::<D>::zeros(); base.columns()];
+                let mut g = vec![Vect::<D>::zeros(); base.rows()];
                 one.rows.iter().for_each(|(i, b)| g[*i] = b * v * dt);
                 base.import(&mut g);
                 g

@@ -207,15 +207,12 @@ impl<const D: usize> ImplicitViscosity<D> {
             &update
         };
         let start = Instant::now();
-        let solved = match self.lagged.stages.is_empty() {
-            true => self.solver.solve(whole, &right, velocity),
-            false => {
-                // A tolerance below that of the outer iteration gains nothing.
-                let enough = INNER * self.scheme.outer().tolerance;
-                let solver = &mut self.solver;
-                solver.solve_roughly(whole, &right, velocity, enough)
-            }
+        // A tolerance below that of the outer iteration gains nothing.
+        let enough = match self.lagged.stages.is_empty() {
+            true => 0.0,
+            false => INNER * self.scheme.outer().tolerance,
         };
+        let solved = self.solver.solve_to((whole, &right, velocity), enough);
         let bytes = operator.bytes();
         drop(operator);
         system.right = right;
