@@ -68,11 +68,9 @@ sph_core::fields! {
 /// q of [`AcousticDamper`], with α ρ₀ c, kg/(m² s), and ρ₀, kg/m³, of every phase.
 fn resistance<const D: usize>(impedance: Vec<f64>, densities: Vec<f64>) -> impl Stage<World<D>> {
     let term = [Divergence::boxed::<D>(OwnVolume)];
-    let mut access = term[0].access().both(fields::POSITION);
-    access = access
-        .here((fields::MASS, fields::PRESSURE))
-        .where_there(MOMENT_EXCESS)
-        .writes(DAMPING_PRESSURE);
+    let access = term[0].access().both(fields::POSITION);
+    let access = access.here((fields::MASS, fields::PRESSURE));
+    let mut access = access.where_there(MOMENT_EXCESS).writes(DAMPING_PRESSURE);
     if densities.len() > 1 {
         access = access.both(fields::PHASE);
     }

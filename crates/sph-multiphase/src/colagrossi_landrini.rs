@@ -69,9 +69,12 @@ pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
     stage("volume", access, |world: &mut World<D>| {
         let mut volume = world.free.take(fields::VOLUME)?;
         let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
-        let all = volume.par_iter_mut().zip(mass).zip(density);
-        all.with_min_len(2048)
-            .for_each(|((v, m), rho)| *v = m / rho);
+        let all = volume
+            .par_iter_mut()
+            .zip(mass)
+            .zip(density)
+            .with_min_len(2048);
+        all.for_each(|((v, m), rho)| *v = m / rho);
         Ok(world.free.put(fields::VOLUME, volume)?)
     })
 }

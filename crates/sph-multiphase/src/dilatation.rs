@@ -48,29 +48,22 @@ impl<const D: usize> StepHook<D> for Dilatation<D> {
         let (world, dt) = (&mut *moment.world, moment.dt);
         self.unused.resize(world.free.len(), Vect::zeros());
         self.divergence.resize(world.free.len(), 0.0);
-        interactions(
-            world,
-            &self.term,
-            &mut self.unused,
-            Some(&mut self.divergence),
-        )?;
+        let (unused, rates) = (&mut self.unused, &mut self.divergence);
+        interactions(world, &self.term, unused, Some(rates))?;
         let exponent = self.compressed.exponent;
         let factor = exponent * dt;
         let own_share = world.kernel.value_at_zero();
         let mut value = world.free.take(self.compressed.value)?;
         let mass = world.free.get(fields::MASS)?;
         let changes = self.divergence.par_iter().zip(mass);
-        value
-            .par_iter_mut()
-            .zip(changes)
-            .with_min_len(2048)
-            .for_each(|(v, (divergence, mass))| {
-                *v *= (factor * divergence).exp();
-                *v = match exponent < 0.0 {
-                    true => v.max(mass * own_share),
-                    false => v.min(1.0 / own_share),
-                };
-            });
+        let all = value.par_iter_mut().zip(changes).with_min_len(2048);
+        all.for_each(|(v, (divergence, mass))| {
+            *v *= (factor * divergence).exp();
+            *v = match exponent < 0.0 {
+                true => v.max(mass * own_share),
+                false => v.min(1.0 / own_share),
+            };
+        });
         Ok(world.free.put(self.compressed.value, value)?)
     }
 }

@@ -19,35 +19,30 @@ pub(crate) fn dispersed_fraction<const D: usize>(light: Vec<bool>) -> impl Stage
     let access = Access::none()
         .both((fields::POSITION, fields::PHASE, fields::VOLUME))
         .writes(DISPERSED_FRACTION);
-    stage(
-        "scattered light particles",
-        access,
-        move |world: &mut World<D>| {
-            let mut dispersed_fraction = world.free.take(DISPERSED_FRACTION)?;
-            dispersed_fraction.fill(0.0);
-            let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
-            let mut at_zero = [0.0];
-            world.kernel.value(&[0.0], &mut at_zero);
-            let share = |around: &Around<'_, D>| {
-                let i = around.rows.particle;
-                let like: f64 = std::iter::zip(around.rows.free.index, around.free)
-                    .filter(|(j, _)| **j as usize != i && phase[**j as usize] == phase[i])
-                    .map(|(j, w)| volume[*j as usize] * w)
-                    .sum();
-                let others = (1.0 - volume[i] * at_zero[0]).max(f64::MIN_POSITIVE);
-                (1.0 - 2.0 * like / others).max(0.0)
-            };
-            // Inside a light phase it is not read: friction is with another phase or with a wall.
-            let (lists, walls) = (world.lists.nearest(), &world.walls);
-            let beside = |i: usize| {
-                let mut near = lists.candidates(i).iter();
-                near.any(|j| phase[*j as usize] != phase[i])
-                    || !walls.contacts.of_particle(i).is_empty()
-                    || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
-            };
-            let wanted = |i: usize| light[phase[i] as usize] && beside(i);
-            walk_into(world, Values::Both, wanted, &mut dispersed_fraction, share)?;
-            Ok(world.free.put(DISPERSED_FRACTION, dispersed_fraction)?)
-        },
-    )
+    let name = "scattered light particles";
+    stage(name, access, move |world: &mut World<D>| {
+        let mut dispersed_fraction = world.free.take(DISPERSED_FRACTION)?;
+        dispersed_fraction.fill(0.0);
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
+        let own = world.kernel.value_at_zero();
+        let share = |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            let all = std::iter::zip(around.rows.free.index, around.free);
+            let like = all.filter(|(j, _)| **j as usize != i && phase[**j as usize] == phase[i]);
+            let like: f64 = like.map(|(j, w)| volume[*j as usize] * w).sum();
+            let others = (1.0 - volume[i] * own).max(f64::MIN_POSITIVE);
+            (1.0 - 2.0 * like / others).max(0.0)
+        };
+        // Inside a light phase it is not read: friction is with another phase or with a wall.
+        let (lists, walls) = (world.lists.nearest(), &world.walls);
+        let beside = |i: usize| {
+            let mut near = lists.candidates(i).iter();
+            near.any(|j| phase[*j as usize] != phase[i])
+                || !walls.contacts.of_particle(i).is_empty()
+                || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
+        };
+        let wanted = |i: usize| light[phase[i] as usize] && beside(i);
+        walk_into(world, Values::Both, wanted, &mut dispersed_fraction, share)?;
+        Ok(world.free.put(DISPERSED_FRACTION, dispersed_fraction)?)
+    })
 }

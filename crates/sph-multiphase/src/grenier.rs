@@ -8,6 +8,7 @@ use sph_neighbours::{
     WallSet, World, add_scaled, dot, minus, pair_sum, pair_term, walk_into,
 };
 
+use crate::colagrossi_landrini::volumes;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
@@ -56,11 +57,7 @@ impl<const D: usize> Formulation<D> for Grenier {
         false
     }
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut volume = world.free.take(fields::VOLUME)?;
-        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
-        let all = volume.iter_mut().zip(mass).zip(density);
-        all.for_each(|((v, m), rho)| *v = m / rho);
-        Ok(world.free.put(fields::VOLUME, volume)?)
+        volumes().run(world)
     }
 }
 

@@ -73,15 +73,11 @@ fn density_sum<const D: usize>() -> impl Stage<World<D>> {
         kernel_sums(world, &mut density)?;
         let (mass, constant) = world.free.all((fields::MASS, fields::DENSITY_CONSTANT))?;
         let gamma = world.sum_renormalisation();
-        density
-            .par_iter_mut()
-            .zip(volume.par_iter_mut())
-            .enumerate()
-            .with_min_len(1024)
-            .for_each(|(i, (rho, v))| {
-                *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
-                *v = mass[i] / *rho;
-            });
+        let both = density.par_iter_mut().zip(&mut volume).enumerate();
+        both.with_min_len(1024).for_each(|(i, (rho, v))| {
+            *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
+            *v = mass[i] / *rho;
+        });
         world.free.put(fields::DENSITY, density)?;
         Ok(world.free.put(fields::VOLUME, volume)?)
     })

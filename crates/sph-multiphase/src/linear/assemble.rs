@@ -178,6 +178,12 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
         self.join(all);
     }
 
+    /// Memory of pattern and values.
+    pub fn bytes(&self) -> usize {
+        let entries = size_of_val(&self.values.diagonal[..]) + size_of_val(&self.values.others[..]);
+        size_of_val(&self.pattern.starts[..]) + size_of_val(&self.pattern.columns[..]) + entries
+    }
+
     /// Moves the rows of all parts to where a matrix has them.
     fn join(&mut self, rows: usize) {
         let Assembly {

@@ -97,14 +97,7 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
         }
     }
     fn bytes(&self) -> usize {
-        let Assembly {
-            pattern, values, ..
-        } = &self.scratch.assembly;
-        size_of_val(&pattern.starts[..])
-            + size_of_val(&pattern.columns[..])
-            + size_of_val(&values.diagonal[..])
-            + size_of_val(&values.others[..])
-            + size_of_val(&self.scratch.pressure[..])
+        self.scratch.assembly.bytes() + size_of_val(&self.scratch.pressure[..])
     }
 }
 

@@ -28,9 +28,8 @@ impl HalfSpace {
                 _ => 2.0 * std::f64::consts::PI * y,
             };
             let at = |y: f64| ring(y) * kernel.at((z * z + y * y).sqrt()).0;
-            gauss_points(0.0, radius, 16)
-                .map(|[y, part]| part * at(y))
-                .sum()
+            let points = gauss_points(0.0, radius, 16);
+            points.map(|[y, part]| part * at(y)).sum()
         };
         let mut deficit = vec![0.0; DEPTHS + 1];
         for k in (0..DEPTHS).rev() {

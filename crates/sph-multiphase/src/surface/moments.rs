@@ -89,18 +89,15 @@ fn at_surface<const D: usize>(
     let (mut filling, mut slope) = (cell * (own + values), Vect::from(slopes) * cell);
     let mut moment = Symmetric(moments) * cell;
     let mut normal = scale.map_or(Vect::zeros(), |scale| scale.slope);
-    for (k, &v) in rows.wall.index.iter().enumerate() {
-        let part = points.share[v as usize] * points.volume[v as usize];
-        let (r, factor) = (rows.wall.separation[k], rows.wall.factor[k]);
-        filling += part * kernel.at(rows.wall.distance2[k].sqrt()).0;
-        slope += r * (part * factor);
-        moment = moment - outer(&r) * (part * factor);
+    for (v, pair) in rows.wall.pairs() {
+        let part = points.share[v] * points.volume[v];
+        filling += part * kernel.at(pair.distance2.sqrt()).0;
+        slope += pair.separation * (part * pair.factor);
+        moment = moment - outer(&pair.separation) * (part * pair.factor);
     }
-    let inverse = match world.scales() {
-        true => 1.0,
-        false => rows.inverse_renormalisation,
-    };
+    let mut inverse = 1.0;
     if !world.scales() {
+        inverse = rows.inverse_renormalisation;
         rows.contacts.iter().for_each(|c| normal += c.gradient);
     }
     let (filling, moment) = (filling * inverse, moment * inverse);

@@ -100,11 +100,10 @@ fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
 /// True if the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
     let (points, elements) = (&world.walls.points, &world.walls.elements);
-    let mut factors = points
-        .friction_factor
-        .iter()
-        .chain(&elements.friction_factor);
-    factors.any(|factor| *factor != 0.0) || elements.wall_function.contains(&true)
+    let rubs = |factors: &[f64]| factors.iter().any(|factor| *factor != 0.0);
+    rubs(&points.friction_factor)
+        || rubs(&elements.friction_factor)
+        || elements.wall_function.contains(&true)
 }
 
 /// [`ViscousTerm`] with its columns.

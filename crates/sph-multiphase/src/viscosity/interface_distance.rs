@@ -28,10 +28,8 @@ impl InterfaceParticles {
         self.built_for = world.lists.builds;
         let lists = &world.lists.free;
         let near = |i: usize| {
-            lists
-                .candidates(i)
-                .iter()
-                .any(|&j| phase[j as usize] != phase[i])
+            let mut all = lists.candidates(i).iter();
+            all.any(|j| phase[*j as usize] != phase[i])
         };
         let all = (0..phase.len()).into_par_iter().with_min_len(1024);
         all.map(near).collect_into_vec(&mut self.near);
