@@ -6,7 +6,7 @@
 //!   velocities itself.
 //! * [`Gate`]: particles that leave, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
-//! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`SoundLimit`] and [`ForceLimit`] are in every scene, [`MotionLimit`] where
+//! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`sound_limit`] and [`force_limit`] are in every scene, [`motion_limit`] where
 //!   walls move.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //! * [`contributes!`] declares the contribution of a kind whose plugins are something else; [`Plugins`] has the plugins of all
@@ -35,7 +35,7 @@ pub use contribution::{Contribution, Refusal, Setting};
 pub use even_out::even_out;
 pub use gate::{Gate, Newborn};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
-pub use limits::{ForceLimit, Limiter, MotionLimit, SoundLimit, bound, light_body_limit};
+pub use limits::{Limiter, bound, force_limit, light_body_limit, motion_limit, sound_limit};
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
 pub use report::Report;

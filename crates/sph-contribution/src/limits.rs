@@ -58,18 +58,15 @@ where
 }
 
 /// Δt ≤ C h / c with the largest local speed of sound, Ghaïtanellis 2017, Eq. 2.104.
-pub struct SoundLimit {
-    /// C.
-    pub courant: f64,
-    /// The equations of state, in the order of the phase numbers.
-    pub laws: Laws,
-}
-
-impl<const D: usize> Limiter<D> for SoundLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+///
+/// With the equations of state in the order of the phase numbers.
+pub fn sound_limit<const D: usize>(courant: f64, laws: Laws) -> impl Limiter<D> {
+    let formula = format!("sound: dt <= {courant} h / c");
+    let remedy = "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten times the largest speed";
+    bound("sound", formula, Some(remedy), move |world: &World<D>| {
         let density = world.free.get(fields::DENSITY)?;
         // Sound is fastest where density is highest, so one law call per phase is enough.
-        let fastest = match &self.laws[..] {
+        let fastest = match &laws[..] {
             // The stiffness of contact between bodies is that of the fluid at rest.
             laws if density.is_empty() => {
                 let each = laws.iter().map(|law| law.reference().sound_speed);
@@ -87,18 +84,8 @@ impl<const D: usize> Limiter<D> for SoundLimit {
                 each.map(|(k, law)| fastest(k, &**law)).fold(0.0, f64::max)
             }
         };
-        let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new("sound", self.courant * h / fastest))
-    }
-    fn remedy(&self) -> Option<String> {
-        Some(
-            "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten times the largest speed"
-                .into(),
-        )
-    }
-    fn formula(&self) -> String {
-        format!("sound: dt <= {} h / c", self.courant)
-    }
+        Ok(courant * world.kernel.smoothing_length() / fastest)
+    })
 }
 
 /// Δt ≤ (h/c)/√Λ, Λ the largest ratio of the inertia of a layer of fluid of the thickness h at a body to that of the
@@ -124,43 +111,23 @@ pub fn light_body_limit<const D: usize>(laws: &Laws) -> impl Limiter<D> + use<D>
 }
 
 /// Δt ≤ C √(h / |a|) with the largest acceleration.
-pub struct ForceLimit {
-    /// C.
-    pub coefficient: f64,
-}
-
-impl<const D: usize> Limiter<D> for ForceLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+pub fn force_limit<const D: usize>(coefficient: f64) -> impl Limiter<D> {
+    let formula = format!("force: dt <= {coefficient} sqrt(h / |a|)");
+    bound("force", formula, None, move |world: &World<D>| {
         let acceleration = world.free.get(fields::ACCELERATION)?;
         let squared = largest(acceleration, |a| a.norm_squared());
         let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new(
-            "force",
-            self.coefficient * (h / squared.sqrt()).sqrt(),
-        ))
-    }
-    fn formula(&self) -> String {
-        format!("force: dt <= {} sqrt(h / |a|)", self.coefficient)
-    }
+        Ok(coefficient * (h / squared.sqrt()).sqrt())
+    })
 }
 
 /// Δt ≤ C δr / |u| with the fastest point of any wall, so that walls leap over neither particles nor walls.
-pub struct MotionLimit {
-    /// C.
-    pub share: f64,
-}
-
-impl<const D: usize> Limiter<D> for MotionLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+pub fn motion_limit<const D: usize>(share: f64) -> impl Limiter<D> {
+    let formula = format!("motion: dt <= {share} spacing / |u_wall|");
+    bound("motion", formula, None, move |world: &World<D>| {
         let fastest = largest(&world.walls.points.velocity, |u| u.norm_squared()).sqrt();
-        Ok(StepLimit::new(
-            "motion",
-            self.share * world.spacing / fastest,
-        ))
-    }
-    fn formula(&self) -> String {
-        format!("motion: dt <= {} spacing / |u_wall|", self.share)
-    }
+        Ok(share * world.spacing / fastest)
+    })
 }
 
 /// The largest value of a column; a value that is not a number counts as infinite.

@@ -177,10 +177,8 @@ fn of_struct(
             return Ok(None);
         }
         _ => {
-            return Err(Error::new(
-                data.struct_token.span,
-                "expected named fields, `{}` for none",
-            ));
+            let message = "expected named fields, `{}` for none";
+            return Err(Error::new(data.struct_token.span, message));
         }
     };
     serde.push(quote!(deny_unknown_fields));
@@ -203,10 +201,8 @@ fn of_choice(
         derives.extend(["PartialEq", "Eq", "Serialize"]);
     }
     let is_default = |a: &Attribute| a.path().is_ident("default");
-    if variants
-        .iter()
-        .any(|variant| variant.attrs.iter().any(is_default))
-    {
+    let mut attributes = variants.iter().flat_map(|variant| &variant.attrs);
+    if attributes.any(is_default) {
         derives.push("Default");
     }
     let is_said = |key: &str| said.iter().any(|s| s == key || s == "untagged");
@@ -243,24 +239,28 @@ mod tests {
     fn expanded(item: &str, is_plugin: bool) -> String {
         let item = syn::parse_str(item).expect("an item");
         let code = expand(item, &quote!(::root), is_plugin);
-        code.unwrap_or_else(Error::into_compile_error)
-            .to_string()
-            .replace(' ', "")
+        let code = code.unwrap_or_else(Error::into_compile_error);
+        code.to_string().replace(' ', "")
+    }
+
+    /// Fails unless the code has some parts and lacks others.
+    fn assert_parts(code: &str, has: &[&str], lacks: &[&str]) {
+        has.iter()
+            .for_each(|part| assert!(code.contains(part), "no {part}: {code}"));
+        lacks
+            .iter()
+            .for_each(|part| assert!(!code.contains(part), "{part}: {code}"));
     }
 
     #[test]
     fn numbers_are_copied_and_what_is_kept_is_not_cloned() {
         let numbers = "struct A { a: f64, b: Option<[u32; 2]> }";
-        assert!(expanded(numbers, true).contains("marker::Copy"));
+        assert_parts(&expanded(numbers, true), &["marker::Copy"], &[]);
         let text = "struct A { a: String }";
-        let code = expanded(text, true);
-        assert!(
-            code.contains("clone::Clone") && !code.contains("marker::Copy"),
-            "{code}"
-        );
+        assert_parts(&expanded(text, true), &["clone::Clone"], &["marker::Copy"]);
         let keeps = "struct A { #[serde(skip)] a: Mutex<f64> }";
-        assert!(!expanded(keeps, true).contains("clone::Clone"));
-        assert!(expanded(keeps, false).contains("clone::Clone"));
+        assert_parts(&expanded(keeps, true), &[], &["clone::Clone"]);
+        assert_parts(&expanded(keeps, false), &["clone::Clone"], &[]);
         let code = expanded("#[derive(Clone, Default)] struct A { a: f64 }", true);
         assert_eq!(code.matches("Clone").count(), 1, "{code}");
     }
@@ -268,37 +268,27 @@ mod tests {
     #[test]
     fn a_table_has_a_default_if_every_field_has_one() {
         let all = "struct A { #[parameter(default: 0.5)] a: f64, b: Option<f64> }";
-        let code = expanded(all, false);
-        assert!(code.contains("default::DefaultforA"), "{code}");
-        assert!(
-            code.contains(r#"#[serde(default="A::default_a")]"#),
-            "{code}"
-        );
+        let call = r#"#[serde(default="A::default_a")]"#;
+        assert_parts(&expanded(all, false), &["default::DefaultforA", call], &[]);
         let some = "struct A { #[parameter(default)] a: f64, b: f64 }";
-        let code = expanded(some, false);
-        assert!(
-            !code.contains("DefaultforA") && code.contains("#[serde(default)]"),
-            "{code}"
+        assert_parts(
+            &expanded(some, false),
+            &["#[serde(default)]"],
+            &["DefaultforA"],
         );
     }
 
     #[test]
     fn choices_are_in_kebab_case_unless_an_author_says_otherwise() {
         let code = expanded("enum A { #[default] OneTwo, Three }", false);
-        assert!(
-            code.contains(r#"rename_all="kebab-case""#) && code.contains("cmp::Eq"),
-            "{code}"
+        let kebab = r#"rename_all="kebab-case""#;
+        assert_parts(&code, &[kebab, "cmp::Eq", "default::Default"], &[]);
+        let own = r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#;
+        assert_parts(
+            &expanded(own, false),
+            &["deny_unknown_fields"],
+            &["kebab", "cmp::Eq"],
         );
-        assert!(code.contains("default::Default"), "{code}");
-        let code = expanded(
-            r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#,
-            false,
-        );
-        assert!(
-            !code.contains("kebab") && code.contains("deny_unknown_fields"),
-            "{code}"
-        );
-        assert!(!code.contains("cmp::Eq"), "{code}");
     }
 
     #[test]
@@ -316,31 +306,26 @@ mod tests {
 
     #[test]
     fn a_plain_type_has_its_default_and_nothing_of_texts() {
-        let item =
-            r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
         let bare = |item: &str| {
             let code = plain(syn::parse_str(item).expect("an item"), true).expect("words");
             code.to_string().replace(' ', "")
         };
-        let code = bare(item);
-        for gone in ["serde", "schema", "unit"] {
-            assert!(!code.contains(gone), "{gone}: {code}");
-        }
-        assert!(code.contains("default::DefaultforA") && code.contains("marker::Copy"));
-        let code = bare("struct A { #[parameter(default: 0.5)] a: f64, b: f64 }");
-        assert!(!code.contains("default_a"), "without a call: {code}");
-        let code = bare("enum A { #[default] #[serde(rename = \"b\")] B, C }");
-        assert!(code.contains("#[default]B"), "{code}");
-        assert!(
-            code.contains("cmp::Eq") && !code.contains("serde"),
-            "{code}"
-        );
+        let item =
+            r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
+        let has = ["default::DefaultforA", "marker::Copy"];
+        assert_parts(&bare(item), &has, &["serde", "schema", "unit"]);
+        // The function would have no call.
+        let some = "struct A { #[parameter(default: 0.5)] a: f64, b: f64 }";
+        assert_parts(&bare(some), &[], &["default_a"]);
+        let choice = "enum A { #[default] #[serde(rename = \"b\")] B, C }";
+        assert_parts(&bare(choice), &["#[default]B", "cmp::Eq"], &["serde"]);
     }
 
     #[test]
     fn one_field_without_a_name_is_the_table_itself() {
-        assert!(expanded("struct A(B);", true).contains("transparent"));
-        assert!(expanded("struct A(B, C);", true).contains("expectednamedfields"));
-        assert!(expanded("struct A;", true).contains("expectednamedfields"));
+        assert_parts(&expanded("struct A(B);", true), &["transparent"], &[]);
+        for item in ["struct A(B, C);", "struct A;"] {
+            assert_parts(&expanded(item, true), &["expectednamedfields"], &[]);
+        }
     }
 }

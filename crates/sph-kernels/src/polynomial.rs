@@ -51,10 +51,9 @@ impl PiecewisePolynomial {
     pub fn check(&self) -> Result<(), String> {
         let (breaks, pieces) = (&self.breaks, &self.pieces);
         if pieces.is_empty() || breaks.len() != pieces.len() + 1 {
+            let (pieces, breaks) = (pieces.len(), breaks.len());
             return Err(format!(
-                "{} pieces need one break more than that, and there are {}",
-                pieces.len(),
-                breaks.len()
+                "{pieces} pieces need one break more than that, and there are {breaks}"
             ));
         }
         if breaks[0] != 0.0 {

@@ -139,14 +139,8 @@ impl<F: Formula> Body for Loop<'_, F> {
     type Output = ();
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let Loop {
-            range,
-            formula,
-            r2,
-            out,
-        } = self;
-        for (out, r2) in out.iter_mut().zip(r2) {
-            *out = formula.at(range.q(*r2));
+        for (out, r2) in self.out.iter_mut().zip(self.r2) {
+            *out = self.formula.at(self.range.q(*r2));
         }
     }
 }

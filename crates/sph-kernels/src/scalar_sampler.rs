@@ -45,11 +45,8 @@ impl<K: Kernel> ScalarSampler<K> {
         }
         let q = r2.sqrt() / self.h;
         let away = if q < SMALLEST_Q { SMALLEST_Q } else { q };
-        let factor = self.kernel.derivative(away) / away;
-        (
-            self.value_scale * self.kernel.value(q),
-            self.factor_scale * factor,
-        )
+        let (value, factor) = (self.kernel.value(q), self.kernel.derivative(away) / away);
+        (self.value_scale * value, self.factor_scale * factor)
     }
 }
 

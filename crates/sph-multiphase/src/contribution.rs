@@ -1,8 +1,8 @@
 //! Formulations and interfaces in a scene.
 
 use sph_contribution::{
-    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, SoundLimit, contributes,
-    light_body_limit,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, contributes, light_body_limit,
+    sound_limit,
 };
 
 use crate::{
@@ -36,10 +36,7 @@ impl<const D: usize> FromPlugins<D> for Compressible<D> {
 impl<const D: usize> Compressible<D> {
     /// Bounds of sound.
     fn sound_limits(setting: &Setting<'_, D>, offer: &mut Offer<D>) {
-        offer.limiter(SoundLimit {
-            courant: setting.courant,
-            laws: setting.laws.clone(),
-        });
+        offer.limiter(sound_limit(setting.courant, setting.laws.clone()));
         if let Some(limit) = interface_limit(setting.laws) {
             offer.limiter(limit);
         }

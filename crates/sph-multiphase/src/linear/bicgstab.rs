@@ -76,10 +76,9 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             precondition.apply(&r, &mut z);
             operator.apply(&mut z, &mut t);
             let squared = operator.inner(&t, &t);
-            omega = if squared > 0.0 {
-                operator.inner(&t, &r) / squared
-            } else {
-                0.0
+            omega = match squared > 0.0 {
+                true => operator.inner(&t, &r) / squared,
+                false => 0.0,
             };
             add(x, omega, &z);
             add(&mut r, -omega, &t);

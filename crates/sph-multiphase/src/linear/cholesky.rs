@@ -132,16 +132,13 @@ fn factorise(kept: &mut Workspace, rows: usize) -> Result<(), SolveError> {
 }
 
 fn solve<const D: usize>(kept: &mut Workspace, right: &[Vect<D>], x: &mut [Vect<D>]) {
+    let places = x.iter_mut().enumerate();
     if kept.blocks {
         let solution = kept.factor.solve_columns(1, |r, _| right[r / D][r % D]);
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = Vect::from_fn(|c, _| solution(i * D + c, 0));
-        }
+        places.for_each(|(i, x)| *x = Vect::from_fn(|c, _| solution(i * D + c, 0)));
     } else {
         let solution = kept.factor.solve_columns(D, |r, c| right[r][c]);
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = Vect::from_fn(|c, _| solution(i, c));
-        }
+        places.for_each(|(i, x)| *x = Vect::from_fn(|c, _| solution(i, c)));
     }
 }
 

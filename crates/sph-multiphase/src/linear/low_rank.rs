@@ -3,7 +3,7 @@
 use sph_core::Vect;
 
 use crate::linear::vector::add;
-use crate::linear::{Diagonal, Matrix, Operator};
+use crate::linear::{Diagonal, Halved, Halves, Matrix, Operator};
 
 /// A + s Σ g gᵀ with few vectors g, s = 1 or −1: the rest of unknowns that many rows share. A alone makes its
 /// preconditioner.
@@ -38,6 +38,12 @@ impl<const D: usize> Operator<D> for LowRank<'_, D> {
             add(y, self.sign * self.base.inner(g, x), g);
         }
     }
+    fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
+        match self.vectors.is_empty() {
+            true => self.base.prepared(memory),
+            false => None,
+        }
+    }
     fn diagonal(&self) -> Option<Diagonal<'_, D>> {
         self.base.diagonal()
     }
@@ -52,20 +58,13 @@ impl<const D: usize> Operator<D> for LowRank<'_, D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{ConjugateGradient, Entries, LinearSolver, Pattern, Values};
+    use crate::linear::{ConjugateGradient, Entries, LinearSolver, Pattern};
 
     /// (2 1 + g gᵀ) x = b with g = (1, 2, 3): x = (b − g (g·b)/(2 + g·g))/2.
     #[test]
     fn a_diagonal_and_one_direction_are_solved_for() {
-        let pattern = Pattern {
-            starts: vec![0; 4],
-            columns: Vec::new(),
-        };
-        let values = Values {
-            diagonal: vec![2.0; 3],
-            others: Vec::new(),
-        };
-        let base = Matrix::<1>::new(pattern, Entries::Scalar(values));
+        let entries = Entries::scalar(vec![2.0; 3], Vec::new());
+        let base = Matrix::<1>::new(Pattern::from_rows(&[vec![], vec![], vec![]]), entries);
         let g: Vec<_> = [1.0, 2.0, 3.0].map(Vect::<1>::new).to_vec();
         let vectors = [g.clone()];
         let operator = LowRank {

@@ -66,17 +66,15 @@ impl Preconditioner {
         } else if self.factorises() {
             let Matrix { pattern, entries } = operator.assembled().ok_or(missing)?;
             let quick = self == Preconditioner::IncompleteDiagonal;
-            let (scalar, block) = (
-                &mut factors.incomplete_scalar,
-                &mut factors.incomplete_block,
-            );
             match entries {
-                Entries::Scalar(own) => scalar
-                    .refill(pattern, own, quick)
-                    .map(Bound::IncompleteScalar),
-                Entries::Block(own) => block
-                    .refill(pattern, own, quick)
-                    .map(Bound::IncompleteBlock),
+                Entries::Scalar(own) => {
+                    let factor = factors.incomplete_scalar.refill(pattern, own, quick);
+                    factor.map(Bound::IncompleteScalar)
+                }
+                Entries::Block(own) => {
+                    let factor = factors.incomplete_block.refill(pattern, own, quick);
+                    factor.map(Bound::IncompleteBlock)
+                }
             }
         } else {
             let whole = self == Preconditioner::BlockJacobi;
@@ -133,6 +131,6 @@ impl<const D: usize> BoundPreconditioner<'_, D> {
 
 fn apply_inverse<const D: usize, E: Entry<D>>(inverse: &[E], r: &[Vect<D>], z: &mut [Vect<D>]) {
     let rows = z.par_iter_mut().zip(r).zip(inverse);
-    rows.with_min_len(ROWS)
-        .for_each(|((z, r), d)| *z = d.apply(r));
+    let rows = rows.with_min_len(ROWS);
+    rows.for_each(|((z, r), d)| *z = d.apply(r));
 }

@@ -1,5 +1,6 @@
 //! Bodies that give way to the pressure that is solved for.
 
+use nalgebra::Vector6;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{FreeBody, World};
 
@@ -31,12 +32,8 @@ pub(crate) fn give_way<const D: usize>(
     for body in &world.walls.bodies {
         let first = vectors.len();
         for root in body.roots() {
-            let mut g = column(
-                world,
-                body,
-                |j| -(RESPONSE.sqrt() * dt) * j.dot(&root),
-                volume,
-            );
+            let along = |j: &Vector6<f64>| -(RESPONSE.sqrt() * dt) * j.dot(&root);
+            let mut g = column(world, body, along, volume);
             base.import(&mut g);
             vectors.push(g);
         }
@@ -56,12 +53,12 @@ pub(crate) fn give_way<const D: usize>(
 fn column<const D: usize>(
     world: &World<D>,
     body: &FreeBody<D>,
-    of: impl Fn(&nalgebra::Vector6<f64>) -> f64,
+    of: impl Fn(&Vector6<f64>) -> f64,
     volume: &[f64],
 ) -> Vec<Vect<1>> {
     let walls = &world.walls;
     let one = |i: usize| {
-        let mut sum = nalgebra::Vector6::zeros();
+        let mut sum = Vector6::zeros();
         for contact in walls.contacts.of_particle(i) {
             let s = contact.element as usize;
             if body.is(walls.elements.wall[s] as usize) {

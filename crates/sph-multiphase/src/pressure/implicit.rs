@@ -1,7 +1,7 @@
 //! The plugin: when pressure acts.
 
 use rayon::prelude::*;
-use sph_contribution::{Limiter, Setting, SoundLimit, bound};
+use sph_contribution::{Limiter, Setting, bound, sound_limit};
 use sph_core::{Stage, fields, plugin};
 use sph_neighbours::World;
 
@@ -48,10 +48,7 @@ impl<const D: usize> PressureScheme<D> for ImplicitPressure {
         Box::new(SolvePressure::new(acting, Automatic::to(self.tolerance)))
     }
     fn limiters(&self, setting: &Setting<'_, D>) -> Vec<Box<dyn Limiter<D>>> {
-        let sound = SoundLimit {
-            courant: setting.courant,
-            laws: setting.laws.clone(),
-        };
+        let sound = sound_limit(setting.courant, setting.laws.clone());
         vec![Box::new(flow_limit(self.courant, sound))]
     }
 }
@@ -61,7 +58,7 @@ const GROWTH: f64 = 1.1;
 
 /// Δt ≤ C h/(|u|max + √(|g| h)), at the start that of sound and then a tenth more from step to step; √(|g| h) is the speed of the
 /// shortest waves on a free surface.
-fn flow_limit<const D: usize>(courant: f64, sound: SoundLimit) -> impl Limiter<D> {
+fn flow_limit<const D: usize>(courant: f64, sound: impl Limiter<D>) -> impl Limiter<D> {
     let formula =
         format!("flow: dt <= {courant} h / (|u| + sqrt(|g| h)), and {GROWTH} times the last");
     let remedy = "a larger `pressure.implicit.courant` lengthens the step in proportion";

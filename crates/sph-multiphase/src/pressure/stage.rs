@@ -134,18 +134,13 @@ impl<const D: usize> SolvePressure<D> {
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let sources = &mut assembly.sources;
         let base = ParticleMatrix::new(&matrix, &space, None);
-        let solved = match world.walls.bodies.is_empty() {
-            true => self.solver.solve(&base, sources, x),
-            false => {
-                let vectors = give_way(world, &base, sources, x)?;
-                let operator = LowRank {
-                    base: &base,
-                    vectors: &vectors,
-                    sign: 1.0,
-                };
-                self.solver.solve(&operator, sources, x)
-            }
+        let vectors = give_way(world, &base, sources, x)?;
+        let operator = LowRank {
+            base: &base,
+            vectors: &vectors,
+            sign: 1.0,
         };
+        let solved = self.solver.solve(&operator, sources, x);
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }

@@ -196,15 +196,10 @@ impl<const D: usize> ImplicitViscosity<D> {
             }
         }
         let vectors = bodies.map_or(Vec::new(), |all| all.bind(&operator, &mut right, dt));
-        let update = LowRank {
+        let whole = LowRank {
             base: &operator,
             vectors: &vectors,
             sign: -1.0,
-        };
-        let whole: &dyn Operator<D> = if vectors.is_empty() {
-            &operator
-        } else {
-            &update
         };
         let start = Instant::now();
         // A tolerance below that of the outer iteration gains nothing.
@@ -212,7 +207,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             true => 0.0,
             false => INNER * self.scheme.outer().tolerance,
         };
-        let solved = self.solver.solve_to((whole, &right, velocity), enough);
+        let solved = self.solver.solve_to((&whole, &right, velocity), enough);
         let bytes = operator.bytes();
         drop(operator);
         system.right = right;

@@ -31,10 +31,9 @@ impl<const D: usize> Start<D> {
         put(&mut self.missing, missing);
         let along = operator.inner(&self.ahead, &self.missing);
         let curvature = operator.inner(&self.ahead, &self.image_ahead);
-        let part = if curvature > 0.0 {
-            along / curvature
-        } else {
-            0.0
+        let part = match curvature > 0.0 {
+            true => along / curvature,
+            false => 0.0,
         };
         let both = velocity.iter_mut().zip(earlier).zip(&self.ahead);
         both.for_each(|((u, e), a)| *u = e + a * part);
