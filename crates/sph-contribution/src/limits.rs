@@ -76,8 +76,7 @@ pub fn sound_limit<const D: usize>(courant: f64, laws: Laws) -> impl Limiter<D> 
             laws => {
                 let phase = world.free.get(fields::PHASE)?;
                 let fastest = |k: usize, law: &dyn BoundState| {
-                    let pairs = density.iter().zip(phase);
-                    let own = pairs.filter(|(_, p)| **p as usize == k);
+                    let own = density.iter().zip(phase).filter(|(_, p)| **p as usize == k);
                     law.sound_speed(own.map(|(rho, _)| *rho).fold(0.0, f64::max))
                 };
                 let each = laws.iter().enumerate();
@@ -116,8 +115,7 @@ pub fn force_limit<const D: usize>(coefficient: f64) -> impl Limiter<D> {
     bound("force", formula, None, move |world: &World<D>| {
         let acceleration = world.free.get(fields::ACCELERATION)?;
         let squared = largest(acceleration, |a| a.norm_squared());
-        let h = world.kernel.smoothing_length();
-        Ok(coefficient * (h / squared.sqrt()).sqrt())
+        Ok(coefficient * (world.kernel.smoothing_length() / squared.sqrt()).sqrt())
     })
 }
 

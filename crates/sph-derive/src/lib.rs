@@ -1,6 +1,5 @@
 //! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin`,
-//! `sph_core::parameters` and, for pair terms, `sph_neighbours::pair_term` and
-//! `sph_neighbours::pair_sum`.
+//! `sph_core::parameters` and, for pair terms, `sph_neighbours::pair_term` and `sph_neighbours::pair_sum`.
 //!
 //! ```text
 //! /// τ = 2 η γ̇ with constant η.
@@ -94,8 +93,7 @@ fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
 #[proc_macro_attribute]
 pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let term = parse_macro_input!(arguments as pair_term::Term);
-    let item = parse_macro_input!(item as DeriveInput);
-    let code = pair_term::expand(&term, item);
+    let code = pair_term::expand(&term, parse_macro_input!(item as DeriveInput));
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 

@@ -2,8 +2,8 @@
 
 /// The unevaluated sum of two numbers, of which the second is at most half an ulp of the first.
 ///
-/// Moments of high-order kernels cancel twelve of sixteen digits between the monomials; with
-/// 32 digits their sums are exact to the last bit of the result.
+/// Moments of high-order kernels cancel twelve of sixteen digits between the monomials; with 32 digits their sums are
+/// exact to the last bit of the result.
 /// Source: Dekker (1971), Numerische Mathematik 18, doi:10.1007/BF01397083.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DoubleDouble(f64, f64);

@@ -1,5 +1,4 @@
-//! Formulas in q of constant size, so that loops over them become vector
-//! instructions.
+//! Formulas in q of constant size, so that loops over them become vector instructions.
 
 use std::fmt::Debug;
 

@@ -7,9 +7,8 @@ use crate::{PiecewisePolynomial, Sampler};
 
 /// A smoothing kernel as the unnormalised shape f(q), q = r/h ≥ 0, f = 0 for q ≥ support.
 ///
-/// This is the exact description, without dimension and h; loops use [`Kernel::sampler`].
-/// A polynomial kernel is a [`PolynomialKernel`](crate::PolynomialKernel); another one
-/// implements five methods and borrows the rest:
+/// This is the exact description, without dimension and h; loops use [`Kernel::sampler`]. A polynomial kernel is a
+/// [`PolynomialKernel`](crate::PolynomialKernel); another one implements five methods and borrows the rest:
 ///
 /// ```
 /// use sph_kernels::{Kernel, Sampler, ScalarSampler};

@@ -9,13 +9,11 @@
 //!
 //! where σ_d makes ∫ w dV = 1. Two roles follow:
 //!
-//! * [`Kernel`] is the shape: slow, exact, without dimension or h. The built-in ones
-//!   ([`builtin`], [`by_name`]) are given by polynomial coefficients alone; normalisation,
-//!   derivative and radial moments are computed from the coefficients
-//!   ([`PiecewisePolynomial`]), never typed in. Wall integrals start from the same coefficients.
-//! * [`Sampler`] is a kernel bound to a dimension and an h: fast, evaluated on slices of
-//!   squared distances, because one virtual call per slice costs nothing and one per pair
-//!   costs a fifth of a whole pressure sweep.
+//! * [`Kernel`] is the shape: slow, exact, without dimension or h. The built-in ones ([`builtin`], [`by_name`]) are
+//!   given by polynomial coefficients alone; normalisation, derivative and radial moments are computed from the
+//!   coefficients ([`PiecewisePolynomial`]), never typed in. Wall integrals start from the same coefficients.
+//! * [`Sampler`] is a kernel bound to a dimension and an h: fast, evaluated on slices of squared distances, because one
+//!   virtual call per slice costs nothing and one per pair costs a fifth of a whole pressure sweep.
 //!
 //! A result depends on its own squared distance alone, bit for bit, and neither on the length
 //! of the slice nor on the place in it.
@@ -35,9 +33,8 @@
 //! assert_eq!((w[2], factor[2]), (0.0, 0.0)); // on the support radius 2h = 1 m
 //! ```
 //!
-//! A kernel of your own is either a [`PolynomialKernel`] made from coefficients ([`algebra`]
-//! multiplies factors out) or any type that implements [`Kernel`], with [`ScalarSampler`] as
-//! its ready-made sampler.
+//! A kernel of your own is either a [`PolynomialKernel`] made from coefficients ([`algebra`] multiplies factors out) or
+//! any type that implements [`Kernel`], with [`ScalarSampler`] as its ready-made sampler.
 //!
 //! [`lanes`] has the vectors in which slices are evaluated: one formula for a number and for 2, 4 or 8 of them.
 

@@ -4,9 +4,8 @@ use crate::algebra;
 
 /// f(q) on consecutive intervals of q = r/h, zero beyond the last break.
 ///
-/// Interval `k` is `[breaks[k], breaks[k + 1])` with `breaks[0] = 0`; its polynomial is
-/// `Σ_n pieces[k][n] qⁿ` in the global variable q (not in the distance from the break).
-/// The shape is not normalised: w(r) = σ_d / h^d · f(r/h).
+/// Interval `k` is `[breaks[k], breaks[k + 1])` with `breaks[0] = 0`; its polynomial is `Σ_n pieces[k][n] qⁿ` in the
+/// global variable q (not in the distance from the break). The shape is not normalised: w(r) = σ_d / h^d · f(r/h).
 ///
 /// ```
 /// use sph_kernels::PiecewisePolynomial;

@@ -14,8 +14,7 @@ use crate::{PiecewisePolynomial, Sampler};
 /// fused multiply-add: the bits depend neither on the place in the slice nor on the processor.
 ///
 /// # Panics
-/// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2 or 3
-/// or h is not positive.
+/// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2 or 3 or h is not positive.
 pub fn polynomial_sampler(
     shape: &PiecewisePolynomial,
     dimension: usize,

@@ -141,8 +141,7 @@ fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> 
         Some(remedy),
         move |world: &World<D>| {
             let wave = wave.get_or_init(|| shortest_wave(world));
-            let h = world.kernel.smoothing_length();
-            Ok(1.0 / (strength * h * fastest * wave * wave))
+            Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
         },
     )
 }

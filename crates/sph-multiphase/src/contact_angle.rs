@@ -61,8 +61,7 @@ impl ContactAngle {
         let number = setting.phases.iter().position(|p| *p == self.phase);
         let wetting = number.unwrap_or(0) as u32;
         let of_wall = |name: &String| self.walls.get(name).unwrap_or(&self.angle).cos();
-        let names = setting.world.walls.names.iter();
-        let cosines: Vec<f64> = names.map(of_wall).collect();
+        let cosines: Vec<f64> = setting.world.walls.names.iter().map(of_wall).collect();
         let access = Access::none()
             .here((fields::POSITION, fields::PHASE, fields::RENORMALISATION))
             .writes(FILM);

@@ -36,9 +36,8 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn stages(&self) -> Stages<D>;
     /// The pressure term of the interaction sweep.
     fn pressure_term(&self) -> Box<dyn Interaction<D>>;
-    /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of
-    /// [`Rates`](sph_neighbours::Rates), 1/s. With Σ over particles and without walls,
-    /// Σ V p D{u} = −Σ V u·G{p}.
+    /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of [`Rates`](sph_neighbours::Rates),
+    /// 1/s. With Σ over particles and without walls, Σ V p D{u} = −Σ V u·G{p}.
     fn divergence(&self) -> Box<dyn Interaction<D>>;
     /// −D lnρ/Dt by motion, 1/s, as the densities follow it: D{u} by default.
     fn dilatation(&self) -> Box<dyn Interaction<D>> {

@@ -33,19 +33,6 @@ impl<const D: usize> FromPlugins<D> for Compressible<D> {
     }
 }
 
-impl<const D: usize> Compressible<D> {
-    /// Bounds of sound.
-    fn sound_limits(setting: &Setting<'_, D>, offer: &mut Offer<D>) {
-        offer.limiter(sound_limit(setting.courant, setting.laws.clone()));
-        if let Some(limit) = interface_limit(setting.laws) {
-            offer.limiter(limit);
-        }
-        if !setting.world.walls.bodies.is_empty() {
-            offer.limiter(light_body_limit(setting.laws));
-        }
-    }
-}
-
 impl<const D: usize> Contribution<D> for Compressible<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         offer.stages = self.formulation.stages();
@@ -55,7 +42,13 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
         match &self.scheme {
             None => {
                 offer.stage(state);
-                Self::sound_limits(setting, offer);
+                offer.limiter(sound_limit(setting.courant, setting.laws.clone()));
+                if let Some(limit) = interface_limit(setting.laws) {
+                    offer.limiter(limit);
+                }
+                if !setting.world.walls.bodies.is_empty() {
+                    offer.limiter(light_body_limit(setting.laws));
+                }
             }
             Some(scheme) => {
                 offer.stages.push(scheme.stage(Acting {

@@ -63,8 +63,7 @@ impl DivergenceWeight for NeighbourVolume {
     }
 }
 
-/// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of
-/// [`Krimi`](crate::Krimi); derived here.
+/// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of [`Krimi`](crate::Krimi); derived here.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityWeighted;
 

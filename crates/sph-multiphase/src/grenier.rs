@@ -183,8 +183,7 @@ impl<const D: usize> BoundDivergence<'_, D> {
             sum -= points.share[v] * points.volume[v] * apart * pair.factor;
         }
         for contact in at.contacts {
-            let wall = self.walls.elements.velocity_at(&contact);
-            sum += (velocity - wall).dot(&contact.gradient);
+            sum += (velocity - self.walls.elements.velocity_at(&contact)).dot(&contact.gradient);
         }
         rates.scalar += sum * (1.0 / self.kernel_sum[i]) * at.inverse_renormalisation;
     }

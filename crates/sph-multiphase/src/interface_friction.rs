@@ -93,8 +93,7 @@ fn damping_limit<const D: usize>(friction: InterfaceFriction, fastest: f64) -> i
             });
             let cell = world.spacing.powi(D as i32);
             let strength = friction.strength + friction.shocks;
-            let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
-            Ok(1.0 / rate)
+            Ok(1.0 / (2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell))
         },
     )
 }
@@ -197,8 +196,7 @@ impl<const D: usize> BoundInterfaceFriction<'_, D> {
             sum += pair.separation * (signal * rate * pair.factor) * mass;
         }
         for contact in at.contacts {
-            let s = contact.element as usize;
-            let normal = self.elements.normal[s];
+            let normal = self.elements.normal[contact.element as usize];
             let leaving = (velocity - self.elements.velocity_at(&contact)).dot(&normal);
             let density = own.wall_density / (own.density + own.wall_density);
             let distance = contact.distance.max(0.5 * self.length);

@@ -27,8 +27,7 @@ pub trait Integrator: Send {
     }
     /// Advances from t to t + dt.
     ///
-    /// On entry the rates belong to the present state; on exit the clock stands at t + dt and
-    /// the rates may be stale.
+    /// On entry the rates belong to the present state; on exit the clock stands at t + dt and the rates may be stale.
     ///
     /// # Errors
     /// If an evaluation inside the step fails.

@@ -4,8 +4,7 @@ use sph_core::{Recall, StepError, StepLimit, System};
 
 use crate::integrators::{Integrator, LeapFrog, PredictorCorrector, SymplecticEuler, Verlet};
 
-/// ẋ = u, u̇ = −p − c u with the "pressure" p = x that an evaluation of the forces alone leaves
-/// as it was.
+/// ẋ = u, u̇ = −p − c u with the "pressure" p = x that an evaluation of the forces alone leaves as it was.
 #[derive(Clone, Copy, Default)]
 pub struct Trial {
     x: f64,

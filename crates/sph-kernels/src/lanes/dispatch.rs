@@ -32,8 +32,7 @@ static ALLOWED: AtomicU8 = AtomicU8::new(0);
 /// Limits the lanes from here on; `None` allows all of the processor. For tests: results do not depend on it, to the
 /// bit.
 pub fn force_width(most: Option<Width>) {
-    let most = most.map_or(0, |w| w.lanes() as u8);
-    ALLOWED.store(most, Ordering::Relaxed);
+    ALLOWED.store(most.map_or(0, |w| w.lanes() as u8), Ordering::Relaxed);
 }
 
 /// The width that [`dispatch`] takes.

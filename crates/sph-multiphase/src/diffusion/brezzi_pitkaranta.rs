@@ -129,7 +129,6 @@ impl<const D: usize> BoundPressureDiffusion<'_, D> {
     }
 
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let density = self.density[at.particle];
-        rates.scalar += self.weight * density * sum * at.inverse_renormalisation;
+        rates.scalar += self.weight * self.density[at.particle] * sum * at.inverse_renormalisation;
     }
 }

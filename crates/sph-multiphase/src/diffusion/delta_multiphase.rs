@@ -203,8 +203,7 @@ impl<const D: usize> BoundDelta<'_, D> {
         if self.term.smoother.walls {
             for contact in at.contacts {
                 let there = self.term.compression(phase, contact.pressure);
-                let apart = contact.distance.max(self.nearest);
-                let slope = (own.compression - there) / apart;
+                let slope = (own.compression - there) / contact.distance.max(self.nearest);
                 let normal = &self.walls.elements.normal[contact.element as usize];
                 let at_rest = own_at_rest.dot(normal) * own.compressibility;
                 sum -= (slope - at_rest) * contact.gradient.norm();

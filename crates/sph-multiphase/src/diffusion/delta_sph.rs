@@ -77,8 +77,7 @@ pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
     "gradient of the density within the phase, exact for linear densities",
 );
 
-/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
-/// span no volume.
+/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours span no volume.
 fn density_gradient<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::DENSITY, fields::VOLUME))

@@ -30,10 +30,8 @@ pub(crate) fn diffusion_limit<const D: usize>(
         formula,
         Some(remedy),
         move |world: &World<D>| {
-            let cell = world.spacing.powi(D as i32);
-            let sum = 2.0 * cell * lattice_sum(world, |pair| -pair.factor);
-            let h = world.kernel.smoothing_length();
-            Ok(STABLE / (strength * h * fastest * sum))
+            let sum = 2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor);
+            Ok(STABLE / (strength * world.kernel.smoothing_length() * fastest * sum))
         },
     )
 }

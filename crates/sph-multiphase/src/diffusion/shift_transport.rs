@@ -9,10 +9,9 @@ use sph_neighbours::{
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
 /// s·∇f = 1/γ_a [Σ_b θ_b V_b (f_b − f_a) s_a·∇w_ab − Σ_s (f_s − f_a) s_a·∇γ_as].
 ///
-/// From neighbours of the same phase, u also from walls that rub: a heavy particle that took up the velocity of light ones
-/// would take momentum from nowhere. Where the density is a sum
-/// over positions (ρ = (K + mΣθw)/γ), the move changes the sum by
-/// 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
+/// From neighbours of the same phase, u also from walls that rub: a heavy particle that took up the velocity of light
+/// ones would take momentum from nowhere. Where the density is a sum over positions (ρ = (K + mΣθw)/γ), the move
+/// changes the sum by 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
 ///
 /// A density that takes no notice of shifts counts what brings particles together and not the shifts that
 /// part them again: it drifts, up to 5000 ρU² in a channel. It is therefore led back to that of the arrangement as

@@ -103,15 +103,13 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
     /// Σ c of the row at hand, in the order in which they came.
     #[inline]
     pub fn sum(&self) -> E {
-        let own = self.own().iter();
-        own.fold(E::ZERO, |sum, c| sum + *c * -1.0)
+        self.own().iter().fold(E::ZERO, |sum, c| sum + *c * -1.0)
     }
 
     /// Ends the row at hand: `own` stands on the diagonal besides the sum of the couplings, `source` on the right-hand side.
     #[inline]
     pub fn end(&mut self, own: E, source: Vect<C>) {
-        let couplings = self.own().iter();
-        let diagonal = couplings.fold(own, |sum, c| sum + *c * -1.0);
+        let diagonal = self.own().iter().fold(own, |sum, c| sum + *c * -1.0);
         self.close(diagonal, source);
     }
 

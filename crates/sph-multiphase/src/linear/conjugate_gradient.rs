@@ -3,7 +3,7 @@
 use sph_core::{Vect, plugin};
 
 use crate::linear::krylov::{SolveMonitor, Tolerance};
-use crate::linear::memory::{Memory, Vectors};
+use crate::linear::memory::Memory;
 use crate::linear::vector::{add, scale_and_add};
 use crate::linear::{
     LinearSolver, LinearSolverEntry, LinearSystem, Memories, Operator, Preconditioner, Report,
@@ -71,17 +71,14 @@ pub(crate) fn iterate<const D: usize>(
 ) -> Result<Report, SolveError> {
     let Memory {
         history,
-        vectors,
-        factors,
-        halves,
-    } = memory;
-    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
-    let Vectors {
         r,
         z,
         direction,
         image,
-    } = vectors;
+        factors,
+        halves,
+    } = memory;
+    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
     operator.residual(right, x, r);
     if let Some(residual) = watch.reached(operator.norm(r))? {
         return Ok(watch.report(residual, size_of_val(&r[..])));

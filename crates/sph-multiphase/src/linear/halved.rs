@@ -73,8 +73,7 @@ fn halve<'a, E: Entry<D>, const D: usize>(
     parts: &'a mut Vec<Part<E>>,
 ) -> Parts<'a, E> {
     let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
-    let count = pattern.len().div_ceil(rows);
-    parts.resize_with(count, Part::empty);
+    parts.resize_with(pattern.len().div_ceil(rows), Part::empty);
     parts.par_iter_mut().enumerate().for_each(|(k, part)| {
         let own = k * rows..((k + 1) * rows).min(pattern.len());
         part.refill(pattern, &values.others, own);

@@ -12,18 +12,12 @@ use crate::linear::precondition::Factors;
 pub(crate) struct Memory<const D: usize> {
     /// Residuals of the solve at hand.
     pub history: Vec<f64>,
-    pub vectors: Vectors<D>,
-    pub factors: Factors<D>,
-    pub halves: Halves<D>,
-}
-
-/// The vectors of conjugate gradients.
-#[derive(Default)]
-pub(crate) struct Vectors<const D: usize> {
     pub r: Vec<Vect<D>>,
     pub z: Vec<Vect<D>>,
     pub direction: Vec<Vect<D>>,
     pub image: Vec<Vect<D>>,
+    pub factors: Factors<D>,
+    pub halves: Halves<D>,
 }
 
 /// The memory of a solver.

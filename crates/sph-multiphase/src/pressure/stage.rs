@@ -174,8 +174,7 @@ impl<const D: usize> SolvePressure<D> {
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
             let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
-            let gamma = gamma.map_or(1.0, |g| g[i]);
-            let size = volume[i] * gamma;
+            let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
             let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
             let compliance = size / stiffness;
             Part {

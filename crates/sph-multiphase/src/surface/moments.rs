@@ -111,8 +111,7 @@ fn at_surface<const D: usize>(
     if lack <= 0.0 {
         return (Symmetric::ZERO, explained);
     }
-    let moment = across(moment, &normal, filling);
-    let Some(inverted) = moment.try_inverse() else {
+    let Some(inverted) = across(moment, &normal, filling).try_inverse() else {
         return (Symmetric::ZERO, explained);
     };
     let excess = inverted - nalgebra::Matrix3::identity();

@@ -241,8 +241,7 @@ impl SurfaceStrain {
             }
             for contact in rows.contacts {
                 let apart = velocity[i] - walls.elements.velocity_at(&contact);
-                let along = apart.dot(&excess[i].apply(&contact.gradient));
-                strain -= along / volume[i];
+                strain -= apart.dot(&excess[i].apply(&contact.gradient)) / volume[i];
             }
             strain
         })

@@ -4,8 +4,7 @@ use nalgebra::SMatrix;
 use sph_core::{Access, StepError, Vect};
 use sph_neighbours::{Cluster, Kinds, Neighbourhood, World};
 
-/// A friction that is linear in the velocities:
-/// m_a γ_a a_a = −Σ_b C_ab (u_a − u_b) − W_a u_a + s_a with C_ab = C_baᵀ.
+/// A friction that is linear in the velocities: m_a γ_a a_a = −Σ_b C_ab (u_a − u_b) − W_a u_a + s_a with C_ab = C_baᵀ.
 pub trait Coupling<const D: usize>: Send + Sync {
     /// Columns read.
     fn access(&self) -> Access;

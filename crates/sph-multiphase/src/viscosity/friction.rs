@@ -168,32 +168,6 @@ pub struct Own<const D: usize, L> {
     near: bool,
 }
 
-/// Sums of one particle.
-#[derive(Clone, Copy)]
-pub struct Sum<const D: usize> {
-    /// Σ θ η̄ f.
-    force: Vect<D>,
-    /// Σ θ ½ t·f(t) r_ab; of V F r_ab where the direction does not matter.
-    discrete: Vect<D>,
-    /// 2 Σ η u_t/δr |∇γ_as|.
-    flux: Vect<D>,
-    /// Σ ∇γ_as.
-    gradient: Vect<D>,
-}
-
-impl<const D: usize> Sum<D> {
-    /// Of free neighbours.
-    #[inline(always)]
-    fn new([force, discrete]: [[f64; D]; 2]) -> Self {
-        Sum {
-            force: force.into(),
-            discrete: discrete.into(),
-            flux: Vect::zeros(),
-            gradient: Vect::zeros(),
-        }
-    }
-}
-
 #[pair_sum]
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
@@ -215,7 +189,7 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         }
     }
 
-    /// Σ θ η̄ f and Σ θ ½ t·f(t) r_ab of free neighbours.
+    /// Σ θ η̄ f, and Σ θ ½ t·f(t) r_ab, of V F r_ab where the direction does not matter.
     fn pair<L: Lane>(
         &self,
         own: &Own<D, L>,
@@ -236,31 +210,36 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         }
     }
 
-    fn finish(&self, sum: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+    fn finish(
+        &self,
+        [force, discrete]: [[f64; D]; 2],
+        at: &Neighbourhood<'_, D>,
+        rates: &mut Rates<D>,
+    ) {
         let here = self.own_values(at.particle);
-        let mut sum = Sum::new(sum);
+        let (mut force, mut discrete) = (Vect::from(force), Vect::from(discrete));
+        // 2 Σ η u_t/δr |∇γ_as|, and Σ ∇γ_as.
+        let (mut flux, mut gradient) = (Vect::zeros(), Vect::zeros());
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
                 let (share, volume) = (self.walls.points.share[v], self.walls.points.volume[v]);
                 let rubbing = self.rubbing(v, &pair);
                 let relative = here.velocity - self.walls.points.viscous_velocity[v];
-                let force = self.friction.force(here.volume, volume, &relative, &pair);
-                sum.force += force * (rubbing * here.viscosity.eta);
+                let of_pair = self.friction.force(here.volume, volume, &relative, &pair);
+                force += of_pair * (rubbing * here.viscosity.eta);
                 let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
-                sum.discrete += pair.separation * (share * shear);
+                discrete += pair.separation * (share * shear);
             }
             for contact in at.contacts {
-                let s = contact.element as usize;
-                let normal = &self.walls.elements.normal[s];
+                let normal = &self.walls.elements.normal[contact.element as usize];
                 let relative = here.velocity - self.walls.elements.velocity_at(&contact);
-                let tangential = relative - normal * relative.dot(normal);
-                sum.flux += tangential * self.weight(&here, &contact);
+                flux += (relative - normal * relative.dot(normal)) * self.weight(&here, &contact);
                 if !self.is_open(contact.element) {
-                    sum.gradient += contact.gradient;
+                    gradient += contact.gradient;
                 }
             }
         }
-        let total = sum.force - sum.flux * self.correction(&here, &sum);
+        let total = force - flux * self.correction(&here, discrete, gradient);
         let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
         rates.acceleration += total * scale;
     }

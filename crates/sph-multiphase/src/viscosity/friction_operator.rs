@@ -48,8 +48,7 @@ impl<const D: usize> FrictionOperator<'_, D> {
             RowsOf::Scalar(own, whole) => size_of_val(own) + size_of_val(whole),
             RowsOf::Block(own, whole) => size_of_val(own) + size_of_val(whole),
         };
-        let matrix = self.matrix.get().map_or(0, Matrix::bytes);
-        self.coupling_bytes + rows + matrix
+        self.coupling_bytes + rows + self.matrix.get().map_or(0, Matrix::bytes)
     }
 
     fn written(&self) -> Matrix<D> {
@@ -66,8 +65,7 @@ impl<const D: usize> FrictionOperator<'_, D> {
         assembly: &mut Assembly<E, D>,
         entries: fn(Values<E>) -> Entries<D>,
     ) -> Matrix<D> {
-        let size = [self.couplings.blocks(), own.len()];
-        assembly.fill_blocks(size, |block, rows| {
+        assembly.fill_blocks([self.couplings.blocks(), own.len()], |block, rows| {
             let mut writer = Writer {
                 own,
                 rows,

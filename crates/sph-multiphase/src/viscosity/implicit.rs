@@ -108,8 +108,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             if self.lagged.stiffens {
                 stiffen(world, &mut self.plain)?;
             }
-            let known = [earlier, &ahead];
-            let solved = self.solve(world, known, again, (&mut velocity, None), dt);
+            let solved = self.solve(world, [earlier, &ahead], again, (&mut velocity, None), dt);
             if self.lagged.stiffens {
                 unstiffen(world, &mut self.plain)?;
             }

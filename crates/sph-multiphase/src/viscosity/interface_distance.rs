@@ -5,8 +5,7 @@ use sph_core::{Access, Field, Scalar, Stage, fields, stage};
 use sph_kernels::Sampler;
 use sph_neighbours::{Around, Values, World, walk_into};
 
-/// Distance of a particle from the interface of its phase; the support's radius where there is
-/// none in reach.
+/// Distance of a particle from the interface of its phase; the support's radius where there is none in reach.
 pub const INTERFACE_DISTANCE: Field<Scalar> =
     Field::new("interface_distance", "m", "distance from the next phase");
 
@@ -38,8 +37,7 @@ impl InterfaceParticles {
 
 /// d from c(d) = Σ_other V w / Σ V w, c being the share of the kernel beyond a plane at d.
 ///
-/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved
-/// interfaces to δr²/R.
+/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved interfaces to δr²/R.
 pub(super) fn interface_distance<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::VOLUME, fields::PHASE))
@@ -139,8 +137,7 @@ mod tests {
     #[test]
     fn the_table_is_inverted_to_1e_4_of_the_radius() {
         for dimension in [2, 3] {
-            let kernel = wendland_c2().sampler(dimension, 0.5);
-            let beyond = KernelTail::new(&*kernel);
+            let beyond = KernelTail::new(&*wendland_c2().sampler(dimension, 0.5));
             assert_eq!(beyond.share[0], 0.5);
             for k in 0..=100 {
                 let d = 0.0085 * f64::from(k);

@@ -76,8 +76,7 @@ impl<const D: usize> PairFriction<D> for KrimiViscosity {
         j: usize,
         rho: [L; 2],
     ) -> L {
-        let there = L::splat(viscosity.at(j));
-        (rho[0] * there + rho[1] * here.eta) / (rho[0] + rho[1])
+        (rho[0] * L::splat(viscosity.at(j)) + rho[1] * here.eta) / (rho[0] + rho[1])
     }
     #[inline(always)]
     fn at_element(self, _: f64, _: f64) -> f64 {

@@ -133,8 +133,7 @@ impl BoundViscosity<'_> {
         if !L::splat(0.0).any_less(unlike) {
             return alike;
         }
-        let distance = L::splat(layers.distance[j]);
-        let mixed = in_series(here.distance, here.eta, distance, there);
+        let mixed = in_series(here.distance, here.eta, L::splat(layers.distance[j]), there);
         unlike.where_positive(mixed, alike)
     }
 }

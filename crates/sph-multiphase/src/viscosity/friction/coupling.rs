@@ -5,7 +5,7 @@ use sph_neighbours::{
     Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
 };
 
-use super::{BoundFriction, OwnValues, PairFriction, Sum, ViscousTerm};
+use super::{BoundFriction, OwnValues, PairFriction, ViscousTerm};
 use crate::linear::{Block, Entry};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
@@ -72,24 +72,23 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         if here.nearest.is_none() {
             return 1.0;
         }
-        let mut sum = Sum::<D>::new([[0.0; D]; 2]);
+        let (mut discrete, mut gradient) = (Vect::zeros(), Vect::zeros());
         let volume = here.volume;
         for (j, pair) in rows.free.pairs() {
             let there = self.volume[j];
-            let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * shear;
+            discrete += pair.separation * self.friction.shear(volume, there, &here.along, &pair);
         }
         for (v, pair) in rows.wall.pairs() {
             let there = self.walls.points.volume[v];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * (self.walls.points.share[v] * shear);
+            discrete += pair.separation * (self.walls.points.share[v] * shear);
         }
         for contact in rows.contacts {
             if !self.is_open(contact.element) {
-                sum.gradient += contact.gradient;
+                gradient += contact.gradient;
             }
         }
-        self.correction(here, &sum)
+        self.correction(here, discrete, gradient)
     }
 }
 

@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_neighbours::{Contact, Pair, Particles};
 
-use super::{BoundFriction, OwnValues, PairFriction, Sum};
+use super::{BoundFriction, OwnValues, PairFriction};
 
 /// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
 const FAINT: f64 = 1e-3;
@@ -77,12 +77,17 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         rubbing
     }
 
-    /// κ.
+    /// κ from Σ θ ½ t·f(t) r and G = Σ ∇γ_as.
     #[inline(always)]
-    pub(super) fn correction(&self, here: &OwnValues<D>, sum: &Sum<D>) -> f64 {
-        let squared = sum.gradient.norm_squared();
+    pub(super) fn correction(
+        &self,
+        here: &OwnValues<D>,
+        discrete: Vect<D>,
+        gradient: Vect<D>,
+    ) -> f64 {
+        let squared = gradient.norm_squared();
         match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
-            true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            true => (discrete.dot(&gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
             false => 1.0,
         }
     }
