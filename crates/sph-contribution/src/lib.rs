@@ -19,27 +19,22 @@
 
 mod column;
 mod contribution;
-mod even_out;
 mod gate;
 pub mod integrators;
 mod kinds;
 mod limits;
 mod offer;
 mod plugins;
-mod report;
 mod step_hook;
-mod terms;
 
 pub use column::{Birth, Initial, OwnColumn};
 pub use contribution::{Contribution, Refusal, Setting};
-pub use even_out::even_out;
-pub use gate::{Gate, Newborn};
+pub use gate::{Gate, Newborn, even_out};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
 pub use limits::{Limiter, bound, force_limit, light_body_limit, motion_limit, sound_limit};
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
-pub use report::Report;
-pub use step_hook::{Forces, Kick, OutsideForce, StepHook, StepMoment, StepPhase};
+pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

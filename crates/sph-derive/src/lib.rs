@@ -17,7 +17,6 @@
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
 mod defaults;
-mod fields;
 mod pair_sum;
 mod pair_term;
 mod parameter;

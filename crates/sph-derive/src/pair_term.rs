@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DeriveInput, Error, Expr, Field, GenericParam, Token, Type};
 
-use crate::fields::optional;
+use crate::defaults::optional;
 
 const FORM: &str = "expected `Term, \"name in plans\"`: the type of the parameters, and the name";
 const NAMED: &str = "a bound term is a struct with named fields";

@@ -7,7 +7,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
 use crate::defaults::Defaults;
-use crate::fields::{is_number, is_skipped, words};
+use crate::defaults::{is_number, is_skipped, words};
 use crate::parameter::value;
 
 /// The module with `serde` and `schemars`.

@@ -1,12 +1,15 @@
-//! Formulations and interfaces in a scene.
+//! The formulation of a scene, and scalars that the motion compresses.
 
+use rayon::prelude::*;
 use sph_contribution::{
-    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, contributes, light_body_limit,
-    sound_limit,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, StepHook, StepMoment, StepPhase,
+    contributes, light_body_limit, sound_limit,
 };
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{Interaction, interactions};
 
 use crate::{
-    Acting, Dilatation, Formulation, FormulationEntry, PressureEntry, PressureScheme,
+    Acting, Compressed, Formulation, FormulationEntry, PressureEntry, PressureScheme,
     PressureStage, interface_limit,
 };
 
@@ -65,5 +68,66 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
             offer.hook(Dilatation::new(compressed, self.formulation.divergence()));
         }
         Ok(())
+    }
+}
+
+/// The divergence of a formulation, at work while positions drift.
+pub struct Dilatation<const D: usize> {
+    compressed: Compressed,
+    term: [Box<dyn Interaction<D>>; 1],
+    /// The sweep sums accelerations, too; they are not read.
+    unused: Vec<Vect<D>>,
+    divergence: Vec<f64>,
+}
+
+impl<const D: usize> Dilatation<D> {
+    /// Of a scalar, with the divergence term of its formulation.
+    pub fn new(compressed: Compressed, term: Box<dyn Interaction<D>>) -> Self {
+        Dilatation {
+            compressed,
+            term: [term],
+            unused: Vec::new(),
+            divergence: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> StepHook<D> for Dilatation<D> {
+    fn name(&self) -> String {
+        "dilatation".into()
+    }
+    fn access(&self) -> Access {
+        let access = self.term[0].access().both(fields::POSITION);
+        access.here(fields::MASS).writes(self.compressed.value)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::MidDrift]
+    }
+    /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities, the volume at most 1/w(0).
+    ///
+    /// That is what a particle alone has where densities are sums, ρ = m w(0). Spray flies apart within the supports of its
+    /// particles, and would thin out to 2 % of the fluid; with 50 times their volume such particles throw the fluid about when
+    /// they fall back into it.
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
+        self.unused.resize(world.free.len(), Vect::zeros());
+        self.divergence.resize(world.free.len(), 0.0);
+        let (unused, rates) = (&mut self.unused, &mut self.divergence);
+        interactions(world, &self.term, unused, Some(rates))?;
+        let exponent = self.compressed.exponent;
+        let factor = exponent * dt;
+        let own_share = world.kernel.value_at_zero();
+        let mut value = world.free.take(self.compressed.value)?;
+        let mass = world.free.get(fields::MASS)?;
+        let changes = self.divergence.par_iter().zip(mass);
+        let all = value.par_iter_mut().zip(changes).with_min_len(2048);
+        all.for_each(|(v, (divergence, mass))| {
+            *v *= (factor * divergence).exp();
+            *v = match exponent < 0.0 {
+                true => v.max(mass * own_share),
+                false => v.min(1.0 / own_share),
+            };
+        });
+        Ok(world.free.put(self.compressed.value, value)?)
     }
 }

@@ -1,16 +1,13 @@
-//! Dissipation between phases.
-
-use sph_core::{Vect, fields, plugin};
-use sph_neighbours::{
-    Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints, World,
-    add_scaled, dot, minus, pair_sum, pair_term, unlike,
-};
+//! Dissipation between phases, and light particles that are scattered in a heavy fluid.
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
-use sph_neighbours::lattice_sum;
+use sph_core::{Access, Field, Scalar, Stage, Vect, fields, plugin, stage};
+use sph_neighbours::{
+    Around, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, WallPoints,
+    World, add_scaled, dot, lattice_sum, minus, pair_sum, pair_term, unlike, walk_into,
+};
 use sph_rheology::state::Laws;
 
-use crate::dispersed_fraction::{DISPERSED_FRACTION, dispersed_fraction};
 use crate::{InterfaceEntry, offer_interface};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
@@ -211,4 +208,48 @@ impl<const D: usize> BoundInterfaceFriction<'_, D> {
         let steady = self.strength * own.dispersed_fraction * own.sound;
         steady + self.shocks * (-parting).clamp(0.0, own.sound)
     }
+}
+
+/// Isolation of a light particle from its phase: 1 alone, 0 where its phase has half of the support or more.
+///
+/// χ_a = max(0, 1 − 2φ_a), φ_a = Σ_{b ≠ a, of the phase of a} V_b w_ab / (1 − V_a w(0)). Walls are none of its
+/// phase. A flat interface half a spacing away leaves φ = 0.64 in two dimensions with h = 2 δr, and χ = 0.
+pub const DISPERSED_FRACTION: Field<Scalar> = Field::new(
+    "dispersed_fraction",
+    "1",
+    "1 for a light particle alone in another phase, 0 where its own has half of the support",
+);
+
+/// [`DISPERSED_FRACTION`] of all phases but the heaviest, which has 0; 0 as well where there is nothing to rub on.
+/// `light` marks phases that are lighter than another.
+pub(crate) fn dispersed_fraction<const D: usize>(light: Vec<bool>) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::PHASE, fields::VOLUME))
+        .writes(DISPERSED_FRACTION);
+    let name = "scattered light particles";
+    stage(name, access, move |world: &mut World<D>| {
+        let mut dispersed_fraction = world.free.take(DISPERSED_FRACTION)?;
+        dispersed_fraction.fill(0.0);
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
+        let own = world.kernel.value_at_zero();
+        let share = |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            let all = std::iter::zip(around.rows.free.index, around.free);
+            let like = all.filter(|(j, _)| **j as usize != i && phase[**j as usize] == phase[i]);
+            let like: f64 = like.map(|(j, w)| volume[*j as usize] * w).sum();
+            let others = (1.0 - volume[i] * own).max(f64::MIN_POSITIVE);
+            (1.0 - 2.0 * like / others).max(0.0)
+        };
+        // Inside a light phase it is not read: friction is with another phase or with a wall.
+        let (lists, walls) = (world.lists.nearest(), &world.walls);
+        let beside = |i: usize| {
+            let mut near = lists.candidates(i).iter();
+            near.any(|j| phase[*j as usize] != phase[i])
+                || !walls.contacts.of_particle(i).is_empty()
+                || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
+        };
+        let wanted = |i: usize| light[phase[i] as usize] && beside(i);
+        walk_into(world, Values::Both, wanted, &mut dispersed_fraction, share)?;
+        Ok(world.free.put(DISPERSED_FRACTION, dispersed_fraction)?)
+    })
 }

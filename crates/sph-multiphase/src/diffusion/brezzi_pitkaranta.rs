@@ -8,7 +8,7 @@ use sph_neighbours::{
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_rheology::state::Laws;
 
-use crate::diffusion::diffusion_limit::fastest;
+use crate::diffusion::contract::fastest;
 use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b {[2(p_a − p_b) + (ρ_aA_a + ρ_bA_b)·r_ab]/(ρ_a + ρ_b) − g·r_ab} F_ab, free neighbours

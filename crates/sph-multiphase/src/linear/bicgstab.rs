@@ -3,8 +3,8 @@
 use sph_core::{Vect, plugin};
 
 use crate::linear::krylov::{SolveMonitor, Tolerance};
+use crate::linear::operator::add;
 use crate::linear::precondition::Factors;
-use crate::linear::vector::add;
 use crate::linear::{
     LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, Report, SolveError,
 };

@@ -6,7 +6,7 @@ use sparse::{Order, SparseError, UpperTriangle};
 use sph_core::{Vect, plugin};
 
 use crate::linear::matrix::{Entries, Matrix, Values};
-use crate::linear::vector::{add, norm};
+use crate::linear::operator::{add, norm};
 use crate::linear::{
     Entry, LinearSolver, LinearSolverEntry, LinearSystem, Pattern, Report, SolveError,
 };
