@@ -128,7 +128,6 @@ pub fn take_words(item: &mut DeriveInput) {
     take(item, &["parameter"]);
 }
 
-/// Takes the attributes of these names away.
 fn take(item: &mut DeriveInput, names: &[&str]) {
     let mut lists = vec![&mut item.attrs];
     let fields: Vec<&mut Fields> = match &mut item.data {
@@ -148,7 +147,6 @@ fn take(item: &mut DeriveInput, names: &[&str]) {
     }
 }
 
-/// The path of a trait that is derived.
 fn path_of(name: &str, root: &TokenStream) -> TokenStream {
     match name {
         "Clone" => quote!(::core::clone::Clone),

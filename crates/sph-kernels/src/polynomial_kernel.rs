@@ -53,27 +53,21 @@ impl Kernel for PolynomialKernel {
     fn name(&self) -> &str {
         &self.name
     }
-
     fn source(&self) -> &str {
         &self.source
     }
-
     fn support(&self) -> f64 {
         self.shape.support()
     }
-
     fn value(&self, q: f64) -> f64 {
         self.shape.value(q)
     }
-
     fn derivative(&self, q: f64) -> f64 {
         self.shape.derivative(q)
     }
-
     fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
         polynomial_sampler(&self.shape, dimension, h)
     }
-
     fn polynomial(&self) -> Option<&PiecewisePolynomial> {
         Some(&self.shape)
     }

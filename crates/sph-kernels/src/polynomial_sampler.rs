@@ -56,7 +56,6 @@ pub fn polynomial_sampler(
     })
 }
 
-/// Dimension, scale and reach.
 #[derive(Clone, Debug)]
 struct Range {
     dimension: usize,
@@ -99,28 +98,22 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     fn dimension(&self) -> usize {
         self.range.dimension
     }
-
     fn smoothing_length(&self) -> f64 {
         self.range.h
     }
-
     fn support_radius(&self) -> f64 {
         self.range.radius
     }
-
     fn value_at_zero(&self) -> f64 {
         self.value.at(0.0)
     }
-
     fn at(&self, r: f64) -> (f64, f64) {
         let q = self.range.q(r * r);
         (self.value.at(q), self.factor.at(q))
     }
-
     fn value(&self, r2: &[f64], w: &mut [f64]) {
         self.range.fill(&self.value, r2, w);
     }
-
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
         self.range.fill(&self.factor, r2, factor);
     }

@@ -54,30 +54,24 @@ impl<K: Kernel> Sampler for ScalarSampler<K> {
     fn dimension(&self) -> usize {
         self.dimension
     }
-
     fn smoothing_length(&self) -> f64 {
         self.h
     }
-
     fn support_radius(&self) -> f64 {
         self.radius
     }
-
     fn value_at_zero(&self) -> f64 {
         self.at_squared(0.0).0
     }
-
     fn at(&self, r: f64) -> (f64, f64) {
         self.at_squared(r * r)
     }
-
     fn value(&self, r2: &[f64], w: &mut [f64]) {
         assert_eq!(r2.len(), w.len());
         for (w, r2) in w.iter_mut().zip(r2) {
             *w = self.at_squared(*r2).0;
         }
     }
-
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
         assert_eq!(r2.len(), factor.len());
         for (factor, r2) in factor.iter_mut().zip(r2) {

@@ -146,10 +146,8 @@ fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> 
     )
 }
 
-/// The force of [`AcousticDamper`].
 struct DampingForce;
 
-/// [`DampingForce`] with its columns.
 #[pair_term(DampingForce, "acoustic damper")]
 struct BoundDamping<'a, const D: usize> {
     #[both(DAMPING_PRESSURE)]
@@ -186,17 +184,12 @@ impl<const D: usize> BoundDamping<'_, D> {
         sum.1 += (*own + other) * pair.value;
     }
 
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         // The wall resists as the particle does.
         let (pressure, own) = (self.pressure[i], self.volume[i]);
         let against = |volume: f64| pressure * (own * own + volume * volume);
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             let itself = 2.0 * pressure * own * own * scale.own_value;
             sum += scale.slope * (of_values + itself);

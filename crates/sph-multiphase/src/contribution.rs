@@ -15,7 +15,6 @@ use crate::{
 
 /// The formulation that a scene names, with its equations of state.
 struct Compressible<const D: usize> {
-    /// The formulation: density and its pressure.
     formulation: Box<dyn Formulation<D>>,
     /// The pressure scheme; without one the equations of state give the pressure.
     scheme: Option<Box<dyn PressureScheme<D>>>,

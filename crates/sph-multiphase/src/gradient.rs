@@ -136,14 +136,9 @@ impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
         sum.1 += self.weight.pair(*own, self.neighbour_state(j)) * pair.value;
     }
 
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value);
         }

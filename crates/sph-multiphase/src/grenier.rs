@@ -103,10 +103,8 @@ fn phase_densities<const D: usize>() -> impl Stage<World<D>> {
     })
 }
 
-/// The pressure term of [`Grenier`].
 struct FilledPressure;
 
-/// [`FilledPressure`] with its columns.
 #[pair_term(FilledPressure, "Grenier pressure gradient")]
 struct BoundPressure<'a, const D: usize> {
     #[both(fields::PRESSURE)]
@@ -121,10 +119,8 @@ struct BoundPressure<'a, const D: usize> {
     points: &'a WallPoints<D>,
 }
 
-/// The divergence of [`Grenier`].
 struct FilledDivergence;
 
-/// [`FilledDivergence`] with its columns.
 #[pair_term(FilledDivergence, "Grenier divergence")]
 struct BoundDivergence<'a, const D: usize> {
     #[both(fields::VOLUME)]

@@ -95,7 +95,6 @@ fn damping_limit<const D: usize>(friction: InterfaceFriction, fastest: f64) -> i
     )
 }
 
-/// [`Damping`] with its columns.
 #[pair_term(Damping, "artificial viscosity between phases")]
 struct BoundInterfaceFriction<'a, const D: usize> {
     #[value(self.friction.strength)]
@@ -124,7 +123,6 @@ struct BoundInterfaceFriction<'a, const D: usize> {
     velocity: &'a [Vect<D>],
 }
 
-/// The own values of a particle.
 #[derive(Clone, Copy)]
 struct Own<const D: usize, L> {
     phase: L,

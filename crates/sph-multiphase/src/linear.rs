@@ -55,4 +55,4 @@ pub use precondition::Preconditioner;
 pub use scheme::{
     BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,
 };
-pub use solver::{LinearSolver, LinearSolverEntry, LinearSystem, Report};
+pub use solver::{LinearSolver, LinearSolverEntry, LinearSystem, Report, SolveResult};

@@ -85,7 +85,6 @@ impl<const D: usize> Contribution<D> for MicroMixing {
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
 trait Repulsion: Copy + Send + Sync + 'static {
-    /// Name in plans.
     const NAME: &'static str;
     /// ε.
     fn strength(self) -> f64;
@@ -93,10 +92,8 @@ trait Repulsion: Copy + Send + Sync + 'static {
     fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L;
 }
 
-/// The term of a weight.
 struct Repelling<R>(R);
 
-/// [`Repelling`] with its columns.
 #[pair_term(Repelling<R>, R::NAME)]
 struct BoundRepulsion<'a, R: Repulsion> {
     #[value(self.0)]
@@ -119,21 +116,16 @@ impl<const D: usize, R: Repulsion> BoundRepulsion<'_, R> {
         [pressure, volume, all.phases(Some(self.phase))]
     }
 
-    fn pair<L: Lane>(
-        &self,
-        [pressure, volume, phase]: &[L; 3],
-        j: usize,
-        pair: &LanePair<D, L>,
-        sum: &mut [L; D],
-    ) {
-        let unlike = unlike(*phase, self.phase[j]);
+    fn pair<L: Lane>(&self, own: &[L; 3], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let [pressure, volume, phase] = *own;
+        let unlike = unlike(phase, self.phase[j]);
         let zero = L::splat(0.0);
         // Most pairs are of one phase.
         if !zero.any_less(unlike) {
             return;
         }
         let there = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
-        let weight = R::weight(*pressure, *volume, there.0, there.1) * pair.factor;
+        let weight = R::weight(pressure, volume, there.0, there.1) * pair.factor;
         add_scaled(sum, &pair.separation, unlike.where_positive(weight, zero));
     }
 

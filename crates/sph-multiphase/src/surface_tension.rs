@@ -82,7 +82,6 @@ sph_core::fields! {
     pub COLOUR_GRADIENT: Vector = "colour_gradient", "1/m", "gradient of the share of all other phases";
 }
 
-/// [`COLOUR_GRADIENT`].
 fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::PHASE, fields::VOLUME))
@@ -200,16 +199,10 @@ impl<const D: usize> BoundSurfaceTension<'_, D> {
         [stress, Stress::each(all, |i| self.film(i))]
     }
 
-    fn pair<L: Lane>(
-        &self,
-        [stress, film]: &Self::Own<L>,
-        j: usize,
-        pair: &LanePair<D, L>,
-        sum: &mut [L; D],
-    ) {
-        stress.add_to(sum, &self.stress(j).splat(), pair);
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        own[0].add_to(sum, &self.stress(j).splat(), pair);
         if !self.film.is_empty() {
-            film.add_to(sum, &self.film(j).splat(), pair);
+            own[1].add_to(sum, &self.film(j).splat(), pair);
         }
     }
 

@@ -101,7 +101,6 @@ mod tests {
     use super::*;
     use crate::lanes::{Body, Lanes, Width, dispatch_at};
 
-    /// Units in the last place between two numbers.
     fn ulps_between(a: f64, b: f64) -> f64 {
         let unit = f64::EPSILON * b.abs().max(f64::MIN_POSITIVE);
         (a - b).abs() / unit

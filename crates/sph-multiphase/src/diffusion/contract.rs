@@ -99,10 +99,7 @@ pub(crate) fn fastest(laws: &Laws) -> f64 {
 ///
 /// ΣV|F| is 3.5/h² for Wendland C2. With Δt = 0.4 h/c it binds from δ = 0.45 on; without it δ = 1 blows a tank at
 /// rest up. Ours.
-pub(crate) fn diffusion_limit<const D: usize>(
-    strength: f64,
-    laws: &Laws,
-) -> impl Limiter<D> + use<D> {
+fn diffusion_limit<const D: usize>(strength: f64, laws: &Laws) -> impl Limiter<D> + use<D> {
     let fastest = fastest(laws);
     let formula = format!("smoother: dt <= {STABLE} / (2 {strength} h c ΣV|F|)");
     let remedy = "a smaller `strength` of the smoother lengthens the step";

@@ -101,7 +101,6 @@ fn power<L: Lane>(ratio: L, exponent: i32) -> L {
     }
 }
 
-/// Sums of free neighbours for an [`Evenness`].
 struct FreeSums<'a> {
     volume: &'a [f64],
     phase: Option<&'a [u32]>,
@@ -115,7 +114,6 @@ struct FreeSums<'a> {
 impl<const D: usize> FreeSums<'_> {
     const VALUES: bool = true;
 
-    /// The phase.
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.phases(self.phase)
     }

@@ -176,7 +176,6 @@ fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl S
     })
 }
 
-/// The shift along the interface between phases.
 fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>) -> Vect<D> {
     match even.interface {
         Some(normal) => shift - normal * normal.dot(&shift),

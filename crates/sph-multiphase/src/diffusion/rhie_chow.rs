@@ -56,7 +56,6 @@ impl<const D: usize> Contribution<D> for RhieChow {
     }
 }
 
-/// [`PRESSURE_SLOPE`].
 fn pressure_slope<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::PRESSURE, fields::DENSITY))

@@ -104,18 +104,13 @@ impl<const D: usize> BoundShiftTransport<'_, D> {
         sums.1 -= own.summed * nearer * pair.factor;
     }
 
-    fn finish(
-        &self,
-        (taken_up, mut rate, rearranged): ([f64; D], f64, f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sums: ([f64; D], f64, f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let void_fraction = self.void_fraction[i];
         if void_fraction == 0.0 {
             return;
         }
-        let mut taken_up = Vect::from(taken_up);
+        let (mut taken_up, mut rate, rearranged) = (Vect::from(sums.0), sums.1, sums.2);
         let (shift, velocity, density) = (self.shift[i], self.velocity[i], self.density[i]);
         let summed = if self.which.summed { self.mass[i] } else { 0.0 };
         for (v, pair) in at.wall.pairs() {

@@ -25,7 +25,6 @@ pub struct Assembly<E, const C: usize> {
 }
 
 impl<E, const C: usize> Default for Assembly<E, C> {
-    /// No rows.
     fn default() -> Self {
         Assembly {
             pattern: Arc::default(),

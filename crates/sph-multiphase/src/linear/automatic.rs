@@ -5,7 +5,7 @@ use sph_core::plugin;
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
     Cholesky, Diagonal, LinearSolver, LinearSolverEntry, LinearSystem, Memories, Operator,
-    Preconditioner, Report, SolveError, Tolerance,
+    Preconditioner, Report, SolveError, SolveResult, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -70,11 +70,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         matches!(operator.diagonal(), Some(Diagonal::Scalar(_))) && !mild(operator)
     }
 
-    fn solve_to(
-        &mut self,
-        (operator, right, x): LinearSystem<'_, D>,
-        enough: f64,
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, enough: f64) -> SolveResult {
         let within = |iterations: usize| Tolerance {
             residual: self.tolerance.max(enough),
             iterations,

@@ -6,7 +6,7 @@ use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::operator::add;
 use crate::linear::precondition::Factors;
 use crate::linear::{
-    LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, Report, SolveError,
+    LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };
 
 /// BiCGSTAB (van der Vorst 1992), which needs no symmetry: the solver of the thesis. Two products per iteration; for
@@ -37,11 +37,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         self.preconditioner.factorises()
     }
 
-    fn solve_to(
-        &mut self,
-        (operator, right, x): LinearSystem<'_, D>,
-        _: f64,
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
         let tolerance = Tolerance {
             residual: self.tolerance,
             iterations: self.iterations,

@@ -8,7 +8,7 @@ use sph_core::{Vect, plugin};
 use crate::linear::matrix::{Entries, Matrix, Values};
 use crate::linear::operator::{add, norm};
 use crate::linear::{
-    Entry, LinearSolver, LinearSolverEntry, LinearSystem, Pattern, Report, SolveError,
+    Entry, LinearSolver, LinearSolverEntry, LinearSystem, Pattern, Report, SolveError, SolveResult,
 };
 
 /// A = L Lᵀ by faer, with the order of elimination kept while the pattern stays the same.
@@ -51,11 +51,7 @@ const REFINE: f64 = 1e-10;
 const REFUSE: f64 = 1e-4;
 
 impl<const D: usize> LinearSolver<D> for Cholesky {
-    fn solve_to(
-        &mut self,
-        (operator, right, x): LinearSystem<'_, D>,
-        _: f64,
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
         let matrix = operator.whole_matrix(METHOD)?;
         if right.is_empty() {
             return Ok(report(0.0, 0));

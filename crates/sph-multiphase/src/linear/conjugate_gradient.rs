@@ -8,8 +8,7 @@ use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::operator::{add, scale_and_add};
 use crate::linear::precondition::Factors;
 use crate::linear::{
-    Halves, LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, Report,
-    SolveError,
+    Halves, LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -51,7 +50,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
         self.preconditioner.factorises()
     }
 
-    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> SolveResult {
         let tolerance = Tolerance {
             residual: self.tolerance.max(enough),
             iterations: self.iterations,
@@ -70,7 +69,7 @@ pub(crate) fn iterate<const D: usize>(
     tolerance: Tolerance,
     memory: &mut Memory<D>,
     (operator, right, x): LinearSystem<'_, D>,
-) -> Result<Report, SolveError> {
+) -> SolveResult {
     let Memory {
         history,
         r,

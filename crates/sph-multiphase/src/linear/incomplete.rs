@@ -20,7 +20,6 @@ pub(crate) struct Incomplete<E: Entry<D>, const D: usize> {
 }
 
 impl<E: Entry<D>, const D: usize> Default for Incomplete<E, D> {
-    /// Of no rows.
     fn default() -> Self {
         Incomplete { parts: Vec::new() }
     }

@@ -4,7 +4,7 @@ use sph_core::Vect;
 
 use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
-use crate::linear::{LinearSolver, LinearSystem, Preconditioner, Report, SolveError};
+use crate::linear::{LinearSolver, LinearSystem, Preconditioner, SolveResult};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
 ///
@@ -21,11 +21,7 @@ pub struct Jacobi {
 const METHOD: &str = "Jacobi";
 
 impl<const D: usize> LinearSolver<D> for Jacobi {
-    fn solve_to(
-        &mut self,
-        (operator, right, x): LinearSystem<'_, D>,
-        _: f64,
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
         let tolerance = Tolerance {
             residual: self.tolerance,
             iterations: self.sweeps,
@@ -50,7 +46,7 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{Entries, Matrix, Pattern};
+    use crate::linear::{Entries, Matrix, Pattern, SolveError};
 
     /// A chain of n rows, held at both ends: the spectral radius is cos(π/(n + 1)).
     fn sweeps(n: u32) -> usize {

@@ -13,7 +13,6 @@ pub struct Tolerance {
     pub iterations: usize,
 }
 
-/// The bookkeeping of one solve.
 pub(crate) struct SolveMonitor<'s> {
     method: &'static str,
     tolerance: Tolerance,

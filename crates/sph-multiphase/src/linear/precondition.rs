@@ -24,7 +24,6 @@ pub enum Preconditioner {
     IncompleteCholesky,
 }
 
-/// A preconditioner of one matrix.
 pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     Nothing,
     Scalar(&'s [f64]),
@@ -33,7 +32,6 @@ pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     IncompleteBlock(&'s Incomplete<Block<D>, D>),
 }
 
-/// Factors of preconditioners.
 #[derive(Default)]
 pub(crate) struct Factors<const D: usize> {
     scalar: Vec<f64>,

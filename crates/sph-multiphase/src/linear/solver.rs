@@ -20,6 +20,9 @@ pub struct Report {
 /// A, b and x of A x = b; b and x have a value for every row, x that of the start.
 pub type LinearSystem<'s, const D: usize> = (&'s dyn Operator<D>, &'s [Vect<D>], &'s mut [Vect<D>]);
 
+/// Effort of a solve, or why there is no solution.
+pub type SolveResult = Result<Report, SolveError>;
+
 /// Solves symmetric positive definite systems.
 pub trait LinearSolver<const D: usize>: Send {
     /// Solves a system within an outer iteration: a relative residual of `enough` will do, where stopping early saves
@@ -27,7 +30,7 @@ pub trait LinearSolver<const D: usize>: Send {
     ///
     /// # Errors
     /// If the residual is above the tolerance; x is then no better than a start for another solver.
-    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> Result<Report, SolveError>;
+    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> SolveResult;
 
     /// Solves A x = b, starting from x.
     ///
@@ -38,7 +41,7 @@ pub trait LinearSolver<const D: usize>: Send {
         operator: &dyn Operator<D>,
         right: &[Vect<D>],
         x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
+    ) -> SolveResult {
         self.solve_to((operator, right, x), 0.0)
     }
 

@@ -148,7 +148,6 @@ impl<const D: usize> SolvePressure<D> {
         self.spread(world)
     }
 
-    /// D{u} of all particles.
     fn diverge(&mut self, world: &World<D>) -> Result<(), StepError> {
         let Scratch { rate, unused, .. } = &mut self.scratch;
         let n = world.free.len();
@@ -158,7 +157,6 @@ impl<const D: usize> SolvePressure<D> {
         interactions(world, &self.dilatation, unused, Some(rate))
     }
 
-    /// The own entries of every row.
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
         let free = &world.free;
         let (volume, density) = free.all((fields::VOLUME, fields::DENSITY))?;

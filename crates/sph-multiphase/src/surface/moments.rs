@@ -1,5 +1,6 @@
 //! Moments of supports that a free surface cuts, and kernel sums below a plane surface.
 
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use sph_core::{Access, Stage, Symmetric, Vect, fields, stage};
 use sph_kernels::{Sampler, gauss_points};
@@ -113,7 +114,7 @@ fn at_surface<const D: usize>(
     let Some(inverted) = across(moment, &normal, filling).try_inverse() else {
         return (Symmetric::ZERO, explained);
     };
-    let excess = inverted - nalgebra::Matrix3::identity();
+    let excess = inverted - Matrix3::identity();
     let fade = (WHOLE[1] - excess.norm()) / (WHOLE[1] - WHOLE[0]);
     let part = fade.clamp(0.0, 1.0) * (lack / LACKING).min(1.0);
     let excess: [[f64; 3]; 3] = (excess * (part * inverse)).into();
@@ -133,11 +134,7 @@ fn outer<const D: usize>(r: &Vect<D>) -> Symmetric {
 
 /// The moment with the filling across a wall, in whose direction its half lacks fluid, as along a surface that meets the wall;
 /// 1 in the direction that a plane has not.
-fn across<const D: usize>(
-    moment: Symmetric,
-    normal: &Vect<D>,
-    filling: f64,
-) -> nalgebra::Matrix3<f64> {
+fn across<const D: usize>(moment: Symmetric, normal: &Vect<D>, filling: f64) -> Matrix3<f64> {
     let mut matrix = moment.matrix();
     if D == 2 {
         matrix[(2, 2)] = 1.0;
@@ -145,12 +142,11 @@ fn across<const D: usize>(
     let Some(normal) = normal.try_normalize(0.0) else {
         return matrix;
     };
-    let n = nalgebra::Vector3::from_fn(|k, _| normal.get(k).copied().unwrap_or(0.0));
-    let along = nalgebra::Matrix3::identity() - n * n.transpose();
+    let n = Vector3::from_fn(|k, _| normal.get(k).copied().unwrap_or(0.0));
+    let along = Matrix3::identity() - n * n.transpose();
     along * matrix * along + n * n.transpose() * filling
 }
 
-/// Depths of the table.
 const DEPTHS: usize = 256;
 
 /// The share of the support that a plane surface takes, over the slope of the concentration: 1 − S(d) over w₁(d).
@@ -165,7 +161,6 @@ pub(super) struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Of a kernel in `dimension` dimensions.
     pub(super) fn new(kernel: &dyn Sampler, dimension: usize) -> Self {
         let reach = kernel.support_radius();
         let depth = |k: usize| reach * k as f64 / DEPTHS as f64;

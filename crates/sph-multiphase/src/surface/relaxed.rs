@@ -94,7 +94,6 @@ pub(super) fn set_parts(
     parts.extend(speeds.map(|c| 1.0 - (-dt * c / length).exp()));
 }
 
-/// The work of [`ConeTest`] in a step.
 struct Relaxation {
     plugin: ConeTest,
     /// ρ₀, kg/m³, and c, m/s, of every phase.
@@ -113,7 +112,6 @@ struct Scratch {
     given: Vec<f64>,
 }
 
-/// A particle as the relaxation sees it.
 struct RelaxedParticle {
     place: f64,
     constant: f64,

@@ -84,10 +84,8 @@ fn apply<L: Lane, const D: usize>(tensor: &[L; 6], r: &[L; D]) -> [L; D] {
     out
 }
 
-/// The force of [`Renormalised`].
 struct SurfacePressure;
 
-/// [`SurfacePressure`] with its columns.
 #[pair_term(SurfacePressure, "pressure at free surfaces")]
 struct BoundSurfacePressure<'a, const D: usize> {
     #[both(MOMENT_EXCESS)]
@@ -133,14 +131,9 @@ impl<const D: usize> BoundSurfacePressure<'_, D> {
         add_scaled(&mut sum.1, &both, pair.value);
     }
 
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], [f64; 6]),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], [f64; 6]), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = Symmetric(self.weighted(at.particle));
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             let all = Symmetric(of_values) + own * (2.0 * scale.own_value);
             sum += all.apply(&scale.slope);

@@ -33,17 +33,11 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
     /// f, 1/m² times the relative velocity u_ab, of several particles.
     #[inline(always)]
-    fn forces<L: Lane>(
-        self,
-        volume: L,
-        there: L,
-        relative: &[L; D],
-        pair: &LanePair<D, L>,
-    ) -> [L; D] {
+    fn forces<L: Lane>(self, volume: L, there: L, u: &[L; D], pair: &LanePair<D, L>) -> [L; D] {
         let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
-        let mut force = scaled(*relative, even);
+        let mut force = scaled(*u, even);
         if Self::DIRECTIONAL {
-            let along = along * dot(relative, &pair.separation);
+            let along = along * dot(u, &pair.separation);
             add_scaled(&mut force, &pair.separation, along);
         }
         force
@@ -210,14 +204,9 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         }
     }
 
-    fn finish(
-        &self,
-        [force, discrete]: [[f64; D]; 2],
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sums: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let here = self.own_values(at.particle);
-        let (mut force, mut discrete) = (Vect::from(force), Vect::from(discrete));
+        let [mut force, mut discrete] = sums.map(Vect::from);
         // 2 Σ η u_t/δr |∇γ_as|, and Σ ∇γ_as.
         let (mut flux, mut gradient) = (Vect::zeros(), Vect::zeros());
         if self.rubs {

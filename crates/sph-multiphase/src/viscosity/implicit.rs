@@ -300,7 +300,6 @@ fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result
     Ok(world.free.put(fields::VISCOSITY, stiff)?)
 }
 
-/// Puts the viscosities back that [`stiffen`] has kept.
 fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
     std::mem::swap(plain, world.free.get_mut(fields::VISCOSITY)?);
     Ok(())
@@ -325,7 +324,6 @@ fn relative_change<const D: usize>(
     })
 }
 
-/// Vectors of a start, for their memory.
 #[derive(Default)]
 pub(crate) struct Start<const D: usize> {
     /// K uⁿ, with the mass.
@@ -361,7 +359,6 @@ impl<const D: usize> Start<D> {
     }
 }
 
-/// Fills a vector anew.
 pub(crate) fn put<T>(to: &mut Vec<T>, from: impl Iterator<Item = T>) {
     to.clear();
     to.extend(from);

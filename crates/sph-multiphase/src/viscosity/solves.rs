@@ -131,7 +131,6 @@ impl SolveArrest {
         Ok(())
     }
 
-    /// A warning about it.
     pub(crate) fn warning(&self) -> Option<String> {
         (self.mean > MUCH).then(|| {
             format!(

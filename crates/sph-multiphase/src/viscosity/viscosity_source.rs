@@ -138,7 +138,6 @@ impl BoundViscosity<'_> {
     }
 }
 
-/// Mean of a pair of one phase.
 #[inline(always)]
 fn mean<L: Lane>(within: Within, eta: L, other: L) -> L {
     match within {

@@ -15,7 +15,6 @@ const LEAST_DISTANCE: f64 = 0.5;
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// True if fluid passes an element.
     #[inline(always)]
     pub(super) fn is_open(&self, element: u32) -> bool {
         !self.open.is_empty()
@@ -79,27 +78,17 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 
     /// κ from Σ θ ½ t·f(t) r and G = Σ ∇γ_as.
     #[inline(always)]
-    pub(super) fn correction(
-        &self,
-        here: &OwnValues<D>,
-        discrete: Vect<D>,
-        gradient: Vect<D>,
-    ) -> f64 {
+    pub(super) fn correction(&self, here: &OwnValues<D>, sum: Vect<D>, gradient: Vect<D>) -> f64 {
         let squared = gradient.norm_squared();
         match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
-            true => (discrete.dot(&gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            true => (sum.dot(&gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
             false => 1.0,
         }
     }
 
     /// Over which the velocity falls to that of an element.
     #[inline(always)]
-    pub(super) fn distance(
-        &self,
-        here: &OwnValues<D>,
-        contact: &Contact<D>,
-        normal: &Vect<D>,
-    ) -> f64 {
+    fn distance(&self, here: &OwnValues<D>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
         let Some((nearest, distance)) = &here.nearest else {
             return contact.distance.max(self.spacing);
         };
