@@ -47,11 +47,7 @@ impl<const D: usize> OwnColumn<D> {
         field: Field<Scalar>,
         initial: impl Fn(&Birth<'_, D>) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        let initial = Initial::Scalar(Box::new(initial));
-        OwnColumn {
-            initial,
-            ..Self::zero(field.any())
-        }
+        Self::new(field.any(), Initial::Scalar(Box::new(initial)))
     }
 
     /// A vector with its value at the start.
@@ -59,19 +55,20 @@ impl<const D: usize> OwnColumn<D> {
         field: Field<Vector>,
         initial: impl Fn(&Birth<'_, D>) -> Vect<D> + Send + Sync + 'static,
     ) -> Self {
-        let initial = Initial::Vector(Box::new(initial));
-        OwnColumn {
-            initial,
-            ..Self::zero(field.any())
-        }
+        Self::new(field.any(), Initial::Vector(Box::new(initial)))
     }
 
     /// A column of any type that starts with zeros.
     pub fn zero(field: AnyField) -> Self {
+        Self::new(field, Initial::Zero)
+    }
+
+    fn new(field: AnyField, initial: Initial<D>) -> Self {
+        let within = [f64::NEG_INFINITY, f64::INFINITY];
         OwnColumn {
             field,
-            initial: Initial::Zero,
-            within: [f64::NEG_INFINITY, f64::INFINITY],
+            initial,
+            within,
         }
     }
 

@@ -21,10 +21,8 @@ impl Parse for Form {
             let message = "a plugin has 2 or 3 dimensions";
             return Err(Error::new_spanned(dimension, message));
         }
-        let of = match input.parse::<Option<Token![=>]>>()? {
-            Some(_) => Some(input.parse()?),
-            None => None,
-        };
+        let arrow = input.parse::<Option<Token![=>]>>()?;
+        let of = arrow.map(|_| input.parse()).transpose()?;
         Ok(Self { dimension, of })
     }
 }

@@ -158,13 +158,11 @@ fn spline(n: usize, terms: &[(f64, f64)]) -> PiecewisePolynomial {
     let mut breaks = vec![0.0];
     let mut pieces = Vec::new();
     for k in (0..terms.len()).rev() {
-        let piece = terms[..=k]
-            .iter()
-            .fold(Vec::new(), |total, &(edge, weight)| {
-                sum(&total, &scaled(&power(&[edge, -1.0], n), weight))
-            });
+        let add = |total: Vec<f64>, (edge, weight): &(f64, f64)| {
+            sum(&total, &scaled(&power(&[*edge, -1.0], n), *weight))
+        };
         breaks.push(terms[k].0);
-        pieces.push(piece);
+        pieces.push(terms[..=k].iter().fold(Vec::new(), add));
     }
     PiecewisePolynomial { breaks, pieces }
 }

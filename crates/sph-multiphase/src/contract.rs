@@ -126,17 +126,16 @@ impl Declares for PressureStage {
         "equation of state".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        let mut access = Access::none()
             .here(fields::DENSITY)
             .writes(fields::PRESSURE);
-        let access = match self.sheared() {
-            true => access.here(fields::STRAIN_RATE),
-            false => access,
-        };
-        match self.laws.len() {
-            1 => access,
-            _ => access.here(fields::PHASE),
+        if self.sheared() {
+            access = access.here(fields::STRAIN_RATE);
         }
+        if self.laws.len() != 1 {
+            access = access.here(fields::PHASE);
+        }
+        access
     }
 }
 
@@ -151,14 +150,10 @@ impl<const D: usize> Stage<World<D>> for PressureStage {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut pressure = world.free.take(fields::PRESSURE)?;
         let density = world.free.get(fields::DENSITY)?;
-        let strain_rate = match self.sheared() {
-            true => world.free.get(fields::STRAIN_RATE)?,
-            false => &[],
-        };
-        let phase = match self.laws.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
+        let strain_rate = self.sheared().then(|| world.free.get(fields::STRAIN_RATE));
+        let strain_rate = strain_rate.transpose()?.unwrap_or_default();
+        let several = self.laws.len() != 1;
+        let phase = several.then(|| world.free.get(fields::PHASE)).transpose()?;
         by_phase(phase, &mut pressure, |law, run, pressure| {
             // Without the column all slices of it are empty.
             let rate = strain_rate.get(run.clone()).unwrap_or_default();

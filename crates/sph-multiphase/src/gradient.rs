@@ -17,6 +17,18 @@ pub struct PairState<L = f64> {
     pub density: L,
 }
 
+impl<L> PairState<L> {
+    /// Of p, V and ρ.
+    #[inline(always)]
+    pub fn new(pressure: L, volume: L, density: L) -> Self {
+        PairState {
+            pressure,
+            volume,
+            density,
+        }
+    }
+}
+
 /// The weight P_ab of a pair in m_a a = −1/γ_a [Σ_b θ_b P_ab ∇w_ab − Σ_s P_as/V_s ∇γ_as].
 ///
 /// With walls that scale the kernel, w̃_ab = s_a s_b w_ab, it is m_a a = −Σ_b P_ab s_a s_b ∇w_ab − B_a ∇ln s_a,
@@ -104,14 +116,15 @@ impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
     const SCALED: bool = true;
 
     fn own<L: Lane>(&self, all: Particles) -> PairState<L> {
-        PairState {
-            pressure: all.numbers(self.pressure),
-            volume: all.numbers(self.volume),
-            density: match P::DENSITY {
-                true => all.numbers(self.density),
-                false => L::splat(0.0),
-            },
-        }
+        let density = match P::DENSITY {
+            true => all.numbers(self.density),
+            false => L::splat(0.0),
+        };
+        PairState::new(
+            all.numbers(self.pressure),
+            all.numbers(self.volume),
+            density,
+        )
     }
 
     /// Σ P ∇w over its separation, and B without the particle's own part.
@@ -143,21 +156,14 @@ impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
             sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value);
         }
         // A wall has no density of its own: it is that of the particle.
+        let points = &self.walls.points;
         for (v, pair) in at.wall.pairs() {
-            let there = PairState {
-                pressure: self.walls.points.pressure[v],
-                volume: self.walls.points.volume[v],
-                density: own.density,
-            };
-            let weight = self.walls.points.share[v] * self.weight.pair(own, there);
+            let there = PairState::new(points.pressure[v], points.volume[v], own.density);
+            let weight = points.share[v] * self.weight.pair(own, there);
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
-            let there = PairState {
-                pressure: contact.pressure,
-                volume: contact.volume,
-                density: own.density,
-            };
+            let there = PairState::new(contact.pressure, contact.volume, own.density);
             sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);
         }
         let inverse_mass = 1.0 / self.mass[at.particle];
@@ -166,10 +172,7 @@ impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
 
     fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
         let density = if P::DENSITY { self.density[j] } else { 0.0 };
-        PairState {
-            pressure: L::splat(self.pressure[j]),
-            volume: L::splat(self.volume[j]),
-            density: L::splat(density),
-        }
+        let (pressure, volume) = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
+        PairState::new(pressure, volume, L::splat(density))
     }
 }

@@ -32,23 +32,18 @@ impl<const D: usize> Formulation<D> for HuAdams {
             per_density: |_, _, gamma| gamma,
         }
     }
-
     fn stages(&self) -> Stages<D> {
         vec![Box::new(density_sum())]
     }
-
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(SquaredVolumes)
     }
-
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(OwnVolume)
     }
-
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(SumVolume)
     }
-
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         kernel_sums(world, &mut constant)?;

@@ -60,11 +60,9 @@ impl Integrator for SymplecticEuler {
     fn coefficients(&self) -> LimitCoefficients {
         self.0
     }
-
     fn kicks_once(&self) -> bool {
         true
     }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.kick(dt)?;
         system.drift(dt)
@@ -94,7 +92,6 @@ impl Integrator for Verlet {
     fn coefficients(&self) -> LimitCoefficients {
         self.0
     }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.drift(0.5 * dt)?;
         system.keep()?;
@@ -127,7 +124,6 @@ impl Integrator for LeapFrog {
     fn coefficients(&self) -> LimitCoefficients {
         self.0
     }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.kick(0.5 * dt)?;
         system.drift(dt)?;
@@ -175,7 +171,6 @@ impl Integrator for PredictorCorrector {
             force: self.force,
         }
     }
-
     fn step(&mut self, system: &mut dyn System, dt: f64) -> Result<(), StepError> {
         system.keep()?;
         system.drift(dt)?;

@@ -8,21 +8,17 @@ use crate::lanes::{Lane, Lanes};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Width {
     /// 2: available on every processor.
-    Two,
+    Two = 2,
     /// 4: AVX2.
-    Four,
+    Four = 4,
     /// 8: AVX-512.
-    Eight,
+    Eight = 8,
 }
 
 impl Width {
     /// As a number.
     pub fn lanes(self) -> usize {
-        match self {
-            Width::Two => 2,
-            Width::Four => 4,
-            Width::Eight => 8,
-        }
+        self as usize
     }
 }
 

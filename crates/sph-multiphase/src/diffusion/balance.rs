@@ -57,26 +57,7 @@ impl MeanAcceleration {
             Accelerated::Slope => PRESSURE_SLOPE,
         }
     }
-}
 
-impl<const D: usize> StepHook<D> for MeanAcceleration {
-    fn name(&self) -> String {
-        "mean acceleration".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(self.source())
-            .remembers(fields::MEAN_ACCELERATION)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::BeforeDrift]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        self.follow(moment.world, moment.dt)
-    }
-}
-
-impl MeanAcceleration {
     /// A of all particles follows over `dt` seconds.
     ///
     /// # Errors
@@ -97,5 +78,22 @@ impl MeanAcceleration {
             Accelerated::Slope => all.for_each(|(mean, s)| toward(mean, gravity - s)),
         }
         Ok(world.free.put(fields::MEAN_ACCELERATION, mean)?)
+    }
+}
+
+impl<const D: usize> StepHook<D> for MeanAcceleration {
+    fn name(&self) -> String {
+        "mean acceleration".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(self.source())
+            .remembers(fields::MEAN_ACCELERATION)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeDrift]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        self.follow(moment.world, moment.dt)
     }
 }

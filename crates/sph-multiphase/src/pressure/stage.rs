@@ -43,24 +43,6 @@ struct Scratch<const D: usize> {
     scratch_pool: Pool<ClusterCoefficients>,
 }
 
-impl<const D: usize> SolvePressure<D> {
-    pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
-        let floor = |law: &dyn BoundState| {
-            let mut pressure = [0.0];
-            law.pressure(&[TORN * law.reference().density], &mut pressure);
-            pressure[0]
-        };
-        SolvePressure {
-            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
-            state: acting.state,
-            dilatation: [acting.dilatation],
-            surfaces: acting.surfaces,
-            solver,
-            scratch: Scratch::default(),
-        }
-    }
-}
-
 impl<const D: usize> Declares for SolvePressure<D> {
     fn name(&self) -> String {
         NAME.into()
@@ -102,6 +84,22 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
 }
 
 impl<const D: usize> SolvePressure<D> {
+    pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
+        let floor = |law: &dyn BoundState| {
+            let mut pressure = [0.0];
+            law.pressure(&[TORN * law.reference().density], &mut pressure);
+            pressure[0]
+        };
+        SolvePressure {
+            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
+            state: acting.state,
+            dilatation: [acting.dilatation],
+            surfaces: acting.surfaces,
+            solver,
+            scratch: Scratch::default(),
+        }
+    }
+
     fn solve(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         self.diverge(world)?;
         self.fill_parts(world)?;
@@ -163,10 +161,8 @@ impl<const D: usize> SolvePressure<D> {
         let pressure = free.get(fields::PRESSURE)?;
         let gamma = free.get(fields::RENORMALISATION).ok();
         let phase = free.get(fields::PHASE).ok();
-        let surface = match self.surfaces {
-            true => Some(free.get(FREE_SURFACE)?),
-            false => None,
-        };
+        let surface = self.surfaces.then(|| free.get(FREE_SURFACE));
+        let surface = surface.transpose()?;
         let row = world.gravity.norm() * world.spacing;
         let Scratch { parts, rate, .. } = &mut self.scratch;
         parts.clear();

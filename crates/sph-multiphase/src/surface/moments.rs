@@ -101,10 +101,8 @@ fn at_surface<const D: usize>(
         rows.contacts.iter().for_each(|c| normal += c.gradient);
     }
     let (filling, moment) = (filling * inverse, moment * inverse);
-    let along = match normal.try_normalize(0.0) {
-        Some(n) => slope - n * n.dot(&slope),
-        None => slope,
-    };
+    let unit = normal.try_normalize(0.0);
+    let along = unit.map_or(slope, |n| slope - n * n.dot(&slope));
     let plane = half_space.deficit(along.norm() * inverse);
     let lack = 1.0 - filling;
     let explained = plane + (lack - plane - UNEVEN).max(0.0);

@@ -119,11 +119,11 @@ impl<const D: usize> ImplicitViscosity<D> {
             self.velocity = velocity;
             iterations += 1;
         }
-        if self.lagged.stiffens && !self.lagged.stages.is_empty() {
-            let held = self.solves.held_back.get_or_insert_default();
-            held.add(world, &ahead, dt)?;
-        }
         if !self.lagged.stages.is_empty() {
+            if self.lagged.stiffens {
+                let held = self.solves.held_back.get_or_insert_default();
+                held.add(world, &ahead, dt)?;
+            }
             let converged = change <= outer.tolerance;
             let change = if change.is_finite() { change } else { 0.0 };
             let outer = self.solves.outer.get_or_insert_default();

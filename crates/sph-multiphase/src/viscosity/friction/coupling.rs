@@ -131,22 +131,18 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
             along: F::DIRECTIONAL,
         }
     }
-
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>) {
         cluster.numbers(self, out);
     }
-
     fn walls_need_neighbours(&self, particle: usize) -> bool {
         self.nearest(particle).is_some()
     }
-
     fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
         self.walls(rows, |here, normal, moving, friction| {
             let leaving = (here.velocity - moving).dot(normal);
             (friction, moving + normal * leaving)
         })
     }
-
     fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<Block<D>, D> {
         self.walls(rows, |_, normal, moving, friction| {
             let along = Block::identity() - normal * normal.transpose();
