@@ -17,7 +17,6 @@
 //! back when a step fails, and they alone are in checkpoints.
 #![doc = include_str!("../README.md")]
 
-mod column;
 mod contribution;
 mod gate;
 pub mod integrators;
@@ -27,8 +26,7 @@ mod offer;
 mod plugins;
 mod step_hook;
 
-pub use column::{Birth, Initial, OwnColumn};
-pub use contribution::{Contribution, Refusal, Setting};
+pub use contribution::{Birth, Contribution, Initial, OwnColumn, Refusal, Setting};
 pub use gate::{Gate, Newborn, even_out};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
 pub use limits::{Limiter, bound, force_limit, light_body_limit, motion_limit, sound_limit};

@@ -73,7 +73,7 @@ pub fn plain_parameters(arguments: TokenStream, item: TokenStream) -> TokenStrea
 }
 
 fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
-    let code = table::plain(item, is_plugin);
+    let code = table::expand(item, None, is_plugin);
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
@@ -110,12 +110,12 @@ pub fn pair_sum(_: TokenStream, item: TokenStream) -> TokenStream {
 /// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so
 /// that the uses of the type are no further errors.
 fn expanded(mut item: DeriveInput, root: &Tokens, registered: Option<Tokens>) -> TokenStream {
-    let error = match table::expand(item.clone(), root, registered.is_some()) {
+    let error = match table::expand(item.clone(), Some(root), registered.is_some()) {
         Ok(table) => return quote!(#table #registered).into(),
         Err(error) => error.into_compile_error(),
     };
-    table::take_words(&mut item);
-    let table = table::expand(item, root, registered.is_some()).ok();
+    table::take(&mut item, &["parameter"]);
+    let table = table::expand(item, Some(root), registered.is_some()).ok();
     let registered = table.is_some().then_some(registered);
     quote!(#error #table #registered).into()
 }

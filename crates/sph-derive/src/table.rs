@@ -29,19 +29,16 @@ impl Parse for Root {
     }
 }
 
-/// A type whose words have been read, and its further attributes.
-struct AnnotatedType {
-    item: DeriveInput,
-    derives: Vec<&'static str>,
-    /// Words for `serde`.
-    serde: Vec<TokenStream>,
-    defaults: Defaults,
-    /// `Default` of the type, if every field has one.
-    default: Option<TokenStream>,
-}
-
-/// A plugin that keeps more than its parameters is no value to copy or to print.
-fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
+/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without scenes: its
+/// words and those for `serde` and `schemars` are gone, and with them the traits that read it from a text and write it.
+///
+/// # Errors
+/// Unknown words; a union; fields without names.
+pub fn expand(
+    mut item: DeriveInput,
+    root: Option<&TokenStream>,
+    is_plugin: bool,
+) -> syn::Result<TokenStream> {
     let derived = words(&item.attrs, "derive");
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
@@ -54,6 +51,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
         Data::Enum(data) => of_choice(data, &mut defaults, &said, (&mut derives, &mut serde))?,
         Data::Union(_) => return Err(Error::new_spanned(&item, "expected a struct or an enum")),
     }
+    // A plugin that keeps more than its parameters is no value to copy or to print.
     if plain || !(is_plugin && keeps) {
         derives.extend(["Clone", "Debug"]);
     }
@@ -62,27 +60,16 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    Ok(AnnotatedType {
-        item,
-        derives,
-        serde,
-        defaults,
-        default,
-    })
-}
-
-/// The type with the words of its attribute.
-///
-/// # Errors
-/// Unknown words; a union; fields without names.
-pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Result<TokenStream> {
-    let AnnotatedType {
-        item,
-        derives,
-        serde,
-        defaults,
-        default,
-    } = read(item, is_plugin)?;
+    let Some(root) = root else {
+        take(&mut item, &["serde", "schemars"]);
+        derives.retain(|name| !["Deserialize", "JsonSchema", "Serialize"].contains(name));
+        let derives = derives
+            .iter()
+            .map(|name| path_of(name, &TokenStream::new()));
+        // The values of single fields are called by the whole alone.
+        let defaults = default.is_some().then_some(defaults);
+        return Ok(quote!(#[derive(#(#derives),*)] #item #defaults #default));
+    };
     let derives = derives.iter().map(|name| path_of(name, root));
     let place = root.to_string().replace(' ', "");
     let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
@@ -96,39 +83,8 @@ pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Re
     })
 }
 
-/// The type as it is without scenes: its words and those for `serde` and `schemars` are gone, and with them the traits
-/// that read it from a text and write it.
-///
-/// # Errors
-/// As [`expand`].
-pub fn plain(item: DeriveInput, is_plugin: bool) -> syn::Result<TokenStream> {
-    let AnnotatedType {
-        mut item,
-        derives,
-        defaults,
-        default,
-        ..
-    } = read(item, is_plugin)?;
-    take(&mut item, &["serde", "schemars"]);
-    let texts = ["Deserialize", "JsonSchema", "Serialize"];
-    let derives = derives.iter().filter(|name| !texts.contains(name));
-    let derives = derives.map(|name| path_of(name, &TokenStream::new()));
-    // The values of single fields are called by the whole alone.
-    let defaults = default.is_some().then_some(defaults);
-    Ok(quote! {
-        #[derive(#(#derives),*)]
-        #item
-        #defaults
-        #default
-    })
-}
-
-/// Takes the words of parameters away.
-pub fn take_words(item: &mut DeriveInput) {
-    take(item, &["parameter"]);
-}
-
-fn take(item: &mut DeriveInput, names: &[&str]) {
+/// Takes the attributes of these names away.
+pub fn take(item: &mut DeriveInput, names: &[&str]) {
     let mut lists = vec![&mut item.attrs];
     let fields: Vec<&mut Fields> = match &mut item.data {
         Data::Struct(data) => vec![&mut data.fields],
@@ -236,7 +192,7 @@ mod tests {
 
     fn expanded(item: &str, is_plugin: bool) -> String {
         let item = syn::parse_str(item).expect("an item");
-        let code = expand(item, &quote!(::root), is_plugin);
+        let code = expand(item, Some(&quote!(::root)), is_plugin);
         let code = code.unwrap_or_else(Error::into_compile_error);
         code.to_string().replace(' ', "")
     }
@@ -296,16 +252,16 @@ mod tests {
             "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
         ] {
             let mut item: DeriveInput = syn::parse_str(item).expect("an item");
-            assert!(expand(item.clone(), &quote!(::root), true).is_err());
-            take_words(&mut item);
-            assert!(expand(item, &quote!(::root), true).is_ok());
+            assert!(expand(item.clone(), Some(&quote!(::root)), true).is_err());
+            take(&mut item, &["parameter"]);
+            assert!(expand(item, Some(&quote!(::root)), true).is_ok());
         }
     }
 
     #[test]
     fn a_plain_type_has_its_default_and_nothing_of_texts() {
         let bare = |item: &str| {
-            let code = plain(syn::parse_str(item).expect("an item"), true).expect("words");
+            let code = expand(syn::parse_str(item).expect("an item"), None, true).expect("words");
             code.to_string().replace(' ', "")
         };
         let item =

@@ -1,14 +1,15 @@
-//! The role of a kernel: a shape of compact support.
+//! The role of a kernel, a shape of compact support; one of coefficients alone, and the sampler of any other.
 
+use std::borrow::Cow;
 use std::fmt::Debug;
 
-use crate::quadrature;
-use crate::{PiecewisePolynomial, Sampler};
+use crate::sampler::assert_smoothing_length;
+use crate::{PiecewisePolynomial, Sampler, polynomial_sampler, quadrature};
 
 /// A smoothing kernel as the unnormalised shape f(q), q = r/h ≥ 0, f = 0 for q ≥ support.
 ///
 /// This is the exact description, without dimension and h; loops use [`Kernel::sampler`]. A polynomial kernel is a
-/// [`PolynomialKernel`](crate::PolynomialKernel); another one implements five methods and borrows the rest:
+/// [`PolynomialKernel`]; another one implements five methods and borrows the rest:
 ///
 /// ```
 /// use sph_kernels::{Kernel, Sampler, ScalarSampler};
@@ -70,6 +71,152 @@ pub trait Kernel: Send + Sync + Debug {
         match self.polynomial() {
             Some(shape) => shape.normalisation(dimension),
             None => quadrature::normalisation(|q| self.value(q), self.support(), dimension),
+        }
+    }
+}
+
+/// A kernel given by a name, a source and its shape.
+///
+/// ```
+/// use sph_kernels::{Kernel, PiecewisePolynomial, PolynomialKernel, algebra};
+///
+/// // Lucy (1977): (1 + 3q)(1 − q)³ on [0, 1), σ₂ = 5/π.
+/// let piece = algebra::product(&[1.0, 3.0], &algebra::power(&[1.0, -1.0], 3));
+/// let shape = PiecewisePolynomial { breaks: vec![0.0, 1.0], pieces: vec![piece] };
+/// let lucy = PolynomialKernel::new("lucy", "Lucy (1977), doi:10.1086/112164", shape);
+/// assert!((lucy.normalisation(2) - 5.0 / std::f64::consts::PI).abs() < 1e-15);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolynomialKernel {
+    name: Cow<'static, str>,
+    source: Cow<'static, str>,
+    shape: PiecewisePolynomial,
+}
+
+impl PolynomialKernel {
+    /// A kernel from its shape.
+    ///
+    /// # Panics
+    /// If [`PiecewisePolynomial::check`] refuses the shape.
+    pub fn new(
+        name: impl Into<Cow<'static, str>>,
+        source: impl Into<Cow<'static, str>>,
+        shape: PiecewisePolynomial,
+    ) -> Self {
+        let (name, source) = (name.into(), source.into());
+        if let Err(reason) = shape.check() {
+            panic!("kernel {name}: {reason}");
+        }
+        Self {
+            name,
+            source,
+            shape,
+        }
+    }
+
+    /// The shape f(q).
+    pub fn shape(&self) -> &PiecewisePolynomial {
+        &self.shape
+    }
+}
+
+impl Kernel for PolynomialKernel {
+    fn name(&self) -> &str {
+        &self.name
+    }
+    fn source(&self) -> &str {
+        &self.source
+    }
+    fn support(&self) -> f64 {
+        self.shape.support()
+    }
+    fn value(&self, q: f64) -> f64 {
+        self.shape.value(q)
+    }
+    fn derivative(&self, q: f64) -> f64 {
+        self.shape.derivative(q)
+    }
+    fn sampler(&self, dimension: usize, h: f64) -> Box<dyn Sampler> {
+        polynomial_sampler(&self.shape, dimension, h)
+    }
+    fn polynomial(&self) -> Option<&PiecewisePolynomial> {
+        Some(&self.shape)
+    }
+}
+
+/// Below this q the factor f'(q)/q is taken at it: its limit for smooth f, finite for all.
+const SMALLEST_Q: f64 = 1e-8;
+
+/// [`Sampler`] of a kernel known by `value` and `derivative` only: general and slow.
+///
+/// Meant for kernels that are not polynomial, and as the reference of faster ones.
+#[derive(Clone, Debug)]
+pub struct ScalarSampler<K> {
+    kernel: K,
+    dimension: usize,
+    h: f64,
+    radius: f64,
+    value_scale: f64,
+    factor_scale: f64,
+}
+
+impl<K: Kernel> ScalarSampler<K> {
+    /// Binds a kernel to a dimension (1, 2, 3) and the smoothing length h in m.
+    ///
+    /// # Panics
+    /// If the dimension is not 1, 2 or 3 or h is not positive.
+    pub fn new(kernel: K, dimension: usize, h: f64) -> Self {
+        assert_smoothing_length(h);
+        let value_scale = kernel.normalisation(dimension) / h.powi(dimension as i32);
+        let radius = kernel.support() * h;
+        let factor_scale = value_scale / (h * h);
+        Self {
+            kernel,
+            dimension,
+            h,
+            radius,
+            value_scale,
+            factor_scale,
+        }
+    }
+
+    fn at_squared(&self, r2: f64) -> (f64, f64) {
+        if r2 >= self.radius * self.radius {
+            return (0.0, 0.0);
+        }
+        let q = r2.sqrt() / self.h;
+        let away = if q < SMALLEST_Q { SMALLEST_Q } else { q };
+        let (value, factor) = (self.kernel.value(q), self.kernel.derivative(away) / away);
+        (self.value_scale * value, self.factor_scale * factor)
+    }
+}
+
+impl<K: Kernel> Sampler for ScalarSampler<K> {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+    fn smoothing_length(&self) -> f64 {
+        self.h
+    }
+    fn support_radius(&self) -> f64 {
+        self.radius
+    }
+    fn value_at_zero(&self) -> f64 {
+        self.at_squared(0.0).0
+    }
+    fn at(&self, r: f64) -> (f64, f64) {
+        self.at_squared(r * r)
+    }
+    fn value(&self, r2: &[f64], w: &mut [f64]) {
+        assert_eq!(r2.len(), w.len());
+        for (w, r2) in w.iter_mut().zip(r2) {
+            *w = self.at_squared(*r2).0;
+        }
+    }
+    fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
+        assert_eq!(r2.len(), factor.len());
+        for (factor, r2) in factor.iter_mut().zip(r2) {
+            *factor = self.at_squared(*r2).1;
         }
     }
 }

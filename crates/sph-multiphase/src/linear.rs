@@ -7,19 +7,6 @@
 //! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
 //!
 //! The unknowns are of any kind: a viscous velocity, a pressure, a temperature.
-//!
-//! ```
-//! use sph_core::Vect;
-//! use sph_multiphase::linear::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern};
-//!
-//! // Three particles in a row, each coupled to the next: diagonal 2, coupling −1.
-//! let pattern = Pattern::from_rows(&[vec![1], vec![0, 2], vec![1]]);
-//! let matrix = Matrix::<2>::new(pattern, Entries::scalar(vec![2.0; 3], vec![-1.0; 4]));
-//! let right = vec![Vect::<2>::new(1.0, 0.0); 3];
-//! let mut x = vec![Vect::<2>::zeros(); 3];
-//! let report = ConjugateGradient::default().solve(&matrix, &right, &mut x).unwrap();
-//! assert!((x[1][0] - 2.0).abs() < 1e-7 && report.iterations <= 3);
-//! ```
 
 mod assemble;
 mod automatic;
@@ -30,7 +17,6 @@ mod entry;
 mod halved;
 mod incomplete;
 mod jacobi;
-mod krylov;
 mod matrix;
 mod operator;
 mod particle_matrix;
@@ -46,7 +32,6 @@ pub use conjugate_gradient::{ConjugateGradient, Memories};
 pub use entry::{Block, Entry};
 pub use halved::{Halved, Halves};
 pub use jacobi::Jacobi;
-pub(crate) use krylov::Tolerance;
 pub(crate) use matrix::coupling_ratio;
 pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
 pub use operator::{LowRank, Operator, SolveError};
@@ -55,4 +40,5 @@ pub use precondition::Preconditioner;
 pub use scheme::{
     BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,
 };
+pub(crate) use solver::Tolerance;
 pub use solver::{LinearSolver, LinearSolverEntry, LinearSystem, Report, SolveResult};

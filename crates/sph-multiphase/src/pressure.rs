@@ -1,6 +1,5 @@
 //! Pressure from the end of the step.
 
-mod bodies;
 mod stage;
 mod system;
 

@@ -12,23 +12,21 @@ mod friction_operator;
 mod friction_system;
 mod implicit;
 mod interface_distance;
-mod krimi_viscosity;
 mod operators;
 mod solves;
 mod viscosity_source;
-mod viscous_limit;
 
 pub use contract::{
-    BoundCoupling, Coupling, CouplingRow, EddyViscosityEntry, Viscosity, ViscousOperator,
-    ViscousOperatorEntry, WithCoupling,
+    BoundCoupling, Coupling, CouplingRow, EddyViscosityEntry, Viscosity, ViscousLimit,
+    ViscousOperator, ViscousOperatorEntry, WithCoupling,
 };
 pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
 pub use friction_operator::FrictionOperator;
 pub use friction_system::FrictionSystem;
 pub use implicit::{ImplicitViscosity, PicardUpdates};
 pub use interface_distance::INTERFACE_DISTANCE;
-pub use krimi_viscosity::{KrimiViscosity, Strength};
-pub use operators::{EspanolRevenga, HuAdamsViscosity, MonaghanGingold, Morris};
+pub use operators::{
+    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, Strength,
+};
 pub use solves::{OuterSolves, SolveArrest, Solves};
 pub use viscosity_source::{BoundViscosity, Layers, OwnViscosity, ViscositySource, Within};
-pub use viscous_limit::ViscousLimit;

@@ -2,9 +2,9 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::operator::add;
 use crate::linear::precondition::Factors;
+use crate::linear::solver::{SolveMonitor, Tolerance};
 use crate::linear::{
     LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };

@@ -4,9 +4,9 @@ use std::any::Any;
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::operator::{add, scale_and_add};
 use crate::linear::precondition::Factors;
+use crate::linear::solver::{SolveMonitor, Tolerance};
 use crate::linear::{
     Halves, LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };

@@ -2,8 +2,8 @@
 
 use sph_core::Vect;
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
+use crate::linear::solver::{SolveMonitor, Tolerance};
 use crate::linear::{LinearSolver, LinearSystem, Preconditioner, SolveResult};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
