@@ -29,7 +29,9 @@ mod step_hook;
 pub use contribution::{Birth, Contribution, Initial, OwnColumn, Refusal, Setting};
 pub use gate::{Gate, Newborn, even_out};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
-pub use limits::{Limiter, bound, force_limit, light_body_limit, motion_limit, sound_limit};
+pub use limits::{
+    Limiter, bound, force_limit, largest, light_body_limit, motion_limit, sound_limit,
+};
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
 pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};

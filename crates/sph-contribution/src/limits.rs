@@ -129,7 +129,7 @@ pub fn motion_limit<const D: usize>(share: f64) -> impl Limiter<D> {
 }
 
 /// The largest value of a column; a value that is not a number counts as infinite.
-fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
+pub fn largest<T: Sync>(column: &[T], value: impl Fn(&T) -> f64 + Sync) -> f64 {
     let all = column.par_iter().with_min_len(1024).map(|x| {
         let v = value(x);
         if v.is_nan() { f64::INFINITY } else { v }

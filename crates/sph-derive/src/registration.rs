@@ -110,29 +110,26 @@ impl Registration {
             other.map_or(own.clone(), ToTokens::to_token_stream)
         };
         let forms = self.forms.as_deref();
-        let dimensions = match forms {
-            Some(forms) => {
-                let all = forms.iter().map(|f| &f.dimension);
-                quote!(&[#(#all),*])
-            }
-            None => quote!(<#entry as ::sph_core::Contract>::KIND.dimensions),
-        };
         let described = forms.and_then(<[Form]>::first).map_or(own.clone(), of);
-        let build = match forms {
+        let (dimensions, build) = match forms {
             None => {
                 let made = self.constructor(&own);
-                quote!(build: #made)
+                let of_kind = quote!(<#entry as ::sph_core::Contract>::KIND.dimensions);
+                (of_kind, quote!(build: #made))
             }
             Some(forms) => {
                 let [planar, spatial] = ["2", "3"].map(|digits| {
                     let form = forms.iter().find(|f| f.dimension.base10_digits() == digits);
-                    let made = form.map(|form| self.constructor(&of(form)));
-                    match made {
+                    match form.map(|form| self.constructor(&of(form))) {
                         Some(made) => quote!(::core::option::Option::Some(#made)),
                         None => quote!(::core::option::Option::None),
                     }
                 });
-                quote!(build_2d: #planar, build_3d: #spatial)
+                let all = forms.iter().map(|f| &f.dimension);
+                (
+                    quote!(&[#(#all),*]),
+                    quote!(build_2d: #planar, build_3d: #spatial),
+                )
             }
         };
         quote! {

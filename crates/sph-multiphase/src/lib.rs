@@ -32,7 +32,6 @@ mod grenier;
 mod hu_adams;
 mod interface_friction;
 mod interface_limit;
-mod krimi;
 pub mod linear;
 pub mod pressure;
 mod repulsion;
@@ -41,7 +40,7 @@ mod surface_tension;
 pub mod viscosity;
 
 pub use acoustic_damper::AcousticDamper;
-pub use colagrossi_landrini::ColagrossiLandrini;
+pub use colagrossi_landrini::{ColagrossiLandrini, Continuity, Krimi};
 pub use contact_angle::{ContactAngle, FILM};
 pub use contract::{
     Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, PressureEntry,
@@ -56,7 +55,6 @@ pub use grenier::Grenier;
 pub use hu_adams::HuAdams;
 pub use interface_friction::{DISPERSED_FRACTION, InterfaceFriction};
 pub use interface_limit::interface_limit;
-pub use krimi::{Continuity, Krimi};
 pub use repulsion::{GrenierInterface, MicroMixing};
 pub use surface::{ConeTest, FREE_SURFACE, MOMENT_EXCESS, Place, Renormalised, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

@@ -3,8 +3,7 @@
 mod stage;
 mod system;
 
-use rayon::prelude::*;
-use sph_contribution::{Limiter, Setting, bound, sound_limit};
+use sph_contribution::{Limiter, Setting, bound, largest, sound_limit};
 use sph_core::{Stage, fields, plugin};
 use sph_neighbours::World;
 
@@ -67,15 +66,7 @@ fn flow_limit<const D: usize>(courant: f64, sound: impl Limiter<D>) -> impl Limi
     let remedy = "a larger `pressure.implicit.courant` lengthens the step in proportion";
     bound("flow", formula, Some(remedy), move |world: &World<D>| {
         let velocity = world.free.get(fields::VELOCITY)?;
-        let squared = velocity.par_iter().with_min_len(1024).map(|u| {
-            let squared = u.norm_squared();
-            if squared.is_nan() {
-                f64::INFINITY
-            } else {
-                squared
-            }
-        });
-        let fastest = squared.reduce(|| 0.0, f64::max).sqrt();
+        let fastest = largest(velocity, |u| u.norm_squared()).sqrt();
         let h = world.kernel.smoothing_length();
         let flow = courant * h / (fastest + (world.gravity.norm() * h).sqrt());
         let longest = sound.limit(world)?.dt.max(GROWTH * world.dt);

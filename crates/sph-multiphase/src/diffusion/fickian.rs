@@ -243,12 +243,9 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
     let mut squares: Vec<f64> = (0..phases).map(largest).collect();
     world.largest(&mut squares)?;
     // A uniform wind differs from its own mean by rounding.
-    let speed = |square: &f64| {
-        if *square > 1e-24 * scale {
-            square.sqrt()
-        } else {
-            0.0
-        }
+    let speed = |square: &f64| match *square > 1e-24 * scale {
+        true => square.sqrt(),
+        false => 0.0,
     };
     Ok(squares.iter().map(speed).collect())
 }

@@ -71,10 +71,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
     }
 
     fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, enough: f64) -> SolveResult {
-        let within = |iterations: usize| Tolerance {
-            residual: self.tolerance.max(enough),
-            iterations,
-        };
+        let within = |iterations| Tolerance::new(self.tolerance.max(enough), iterations);
         let Some(diagonal) = operator.diagonal() else {
             let (none, system) = (Preconditioner::None, (operator, right, x));
             let work = |memory: &mut _| iterate(none, within(ITERATIONS), memory, system);

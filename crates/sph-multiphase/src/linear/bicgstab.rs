@@ -38,10 +38,7 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
     }
 
     fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
-        let tolerance = Tolerance {
-            residual: self.tolerance,
-            iterations: self.iterations,
-        };
+        let tolerance = Tolerance::new(self.tolerance, self.iterations);
         let (mut history, mut factors) = (Vec::new(), Factors::default());
         let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let mut r = Vec::new();

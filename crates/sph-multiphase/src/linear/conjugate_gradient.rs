@@ -51,10 +51,7 @@ impl<const D: usize> LinearSolver<D> for ConjugateGradient {
     }
 
     fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> SolveResult {
-        let tolerance = Tolerance {
-            residual: self.tolerance.max(enough),
-            iterations: self.iterations,
-        };
+        let tolerance = Tolerance::new(self.tolerance.max(enough), self.iterations);
         self.memories
             .with_memory(|memory| iterate(self.preconditioner, tolerance, memory, system))
     }

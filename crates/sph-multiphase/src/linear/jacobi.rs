@@ -22,10 +22,7 @@ const METHOD: &str = "Jacobi";
 
 impl<const D: usize> LinearSolver<D> for Jacobi {
     fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
-        let tolerance = Tolerance {
-            residual: self.tolerance,
-            iterations: self.sweeps,
-        };
+        let tolerance = Tolerance::new(self.tolerance, self.sweeps);
         let (mut history, mut factors) = (Vec::new(), Factors::default());
         let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &mut factors)?;

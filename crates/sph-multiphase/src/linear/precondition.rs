@@ -76,7 +76,10 @@ impl Preconditioner {
             }
         } else {
             let whole = self == Preconditioner::BlockJacobi;
-            let part = |d: &Block<D>| if whole { *d } else { Entry::<D>::diagonal(d) };
+            let part = |d: &Block<D>| match whole {
+                true => *d,
+                false => Block::from_diagonal(&d.diagonal()),
+            };
             match operator.diagonal().ok_or(missing)? {
                 Diagonal::Scalar(all) => {
                     inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)

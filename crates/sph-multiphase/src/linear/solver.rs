@@ -68,6 +68,16 @@ pub struct Tolerance {
     pub iterations: usize,
 }
 
+impl Tolerance {
+    /// Of a residual and a number of iterations.
+    pub fn new(residual: f64, iterations: usize) -> Self {
+        Tolerance {
+            residual,
+            iterations,
+        }
+    }
+}
+
 pub(crate) struct SolveMonitor<'s> {
     method: &'static str,
     tolerance: Tolerance,
