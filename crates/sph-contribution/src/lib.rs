@@ -6,8 +6,8 @@
 //!   velocities itself.
 //! * [`Gate`]: particles that leave, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
-//! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`sound_limit`] and [`force_limit`] are in every scene, [`motion_limit`] where
-//!   walls move.
+//! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`sound_limit`] and [`force_limit`] are in every
+//!   scene, [`motion_limit`] where walls move.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //! * [`contributes!`] declares the contribution of a kind whose plugins are something else; [`Plugins`] has the plugins of all
 //!   kinds for it. [`parts`] are the contributions of a scene.

@@ -62,7 +62,8 @@ where
 /// With the equations of state in the order of the phase numbers.
 pub fn sound_limit<const D: usize>(courant: f64, laws: Laws) -> impl Limiter<D> {
     let formula = format!("sound: dt <= {courant} h / c");
-    let remedy = "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten times the largest speed";
+    let remedy = "a lower `speed_of_sound` lengthens the step in proportion, as long as it stays ten times the \
+                  largest speed";
     bound("sound", formula, Some(remedy), move |world: &World<D>| {
         let density = world.free.get(fields::DENSITY)?;
         // Sound is fastest where density is highest, so one law call per phase is enough.

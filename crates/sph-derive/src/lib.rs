@@ -98,8 +98,8 @@ pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
 
 /// The sum of a pair term, written as one block of functions of the bound struct.
 ///
-/// `own` and `pair` make its `PairSum`, with the types that they return and add to; `pair_at_walls` and the constants of
-/// the trait may stand beside them. `finish` makes the `BoundTerm`, other functions stay with the struct. All of them are
+/// `own` and `pair` make its `PairSum`, with the types that they return and add to; `pair_at_walls` and the constants
+/// of the trait may be beside them. `finish` makes the `BoundTerm`, other functions stay with the struct. All are
 /// `#[inline(always)]`.
 #[proc_macro_attribute]
 pub fn pair_sum(_: TokenStream, item: TokenStream) -> TokenStream {

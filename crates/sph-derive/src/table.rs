@@ -29,8 +29,8 @@ impl Parse for Root {
     }
 }
 
-/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without scenes: its
-/// words and those for `serde` and `schemars` are gone, and with them the traits that read it from a text and write it.
+/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without
+/// scenes: its words and those for `serde` and `schemars` are gone, and with them the traits of texts.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.

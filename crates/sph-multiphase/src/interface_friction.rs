@@ -6,7 +6,6 @@ use sph_neighbours::{
     Around, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, WallPoints,
     World, add_scaled, dot, lattice_sum, minus, pair_sum, pair_term, unlike, walk_into,
 };
-use sph_rheology::state::Laws;
 
 use crate::{InterfaceEntry, offer_interface};
 
@@ -45,7 +44,14 @@ pub struct InterfaceFriction {
 
 impl<const D: usize> Contribution<D> for InterfaceFriction {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let damping = Damping::new(*self, setting.laws);
+        let phases = || setting.laws.iter().map(|law| law.reference());
+        let heaviest = phases().map(|r| r.density).fold(0.0, f64::max);
+        let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
+        let damping = Damping {
+            friction: *self,
+            sound: phases().map(|r| r.sound_speed).collect(),
+            wall_density: phases().map(|r| behind_wall(r.density)).collect(),
+        };
         let light = damping.wall_density.iter();
         let light = light.map(|density| *density > 0.0).collect();
         offer.stage(dispersed_fraction(light));
@@ -61,19 +67,6 @@ struct Damping {
     sound: Vec<f64>,
     /// Density that walls have for a phase, kg/m³: that of the heaviest, nothing for that itself.
     wall_density: Vec<f64>,
-}
-
-impl Damping {
-    fn new(friction: InterfaceFriction, laws: &Laws) -> Self {
-        let density = laws.iter().map(|l| l.reference().density);
-        let heaviest = density.clone().fold(0.0, f64::max);
-        let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
-        Damping {
-            friction,
-            sound: laws.iter().map(|l| l.reference().sound_speed).collect(),
-            wall_density: density.map(behind_wall).collect(),
-        }
-    }
 }
 
 /// Δt ≤ 1/λ for the rate λ at which a light particle among heavy ones is stopped, if it closes with them at the speed of sound.

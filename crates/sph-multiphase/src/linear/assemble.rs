@@ -99,12 +99,6 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
         &self.others[self.begin..self.used]
     }
 
-    /// Σ c of the row at hand, in the order in which they came.
-    #[inline]
-    pub fn sum(&self) -> E {
-        self.own().iter().fold(E::ZERO, |sum, c| sum + *c * -1.0)
-    }
-
     /// Ends the row at hand: `own` stands on the diagonal besides the sum of the couplings, `source` on the right-hand side.
     #[inline]
     pub fn end(&mut self, own: E, source: Vect<C>) {
