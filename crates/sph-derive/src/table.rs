@@ -19,12 +19,10 @@ impl Parse for Root {
             return Ok(Self(quote!(::sph_core::reexport)));
         }
         let word = input.call(Ident::parse_any)?;
+        let message = "expected `crate: path`, or nothing";
         match word == "crate" {
             true => value(&word, input).map(Self),
-            false => Err(Error::new_spanned(
-                word,
-                "expected `crate: path`, or nothing",
-            )),
+            false => Err(Error::new_spanned(word, message)),
         }
     }
 }

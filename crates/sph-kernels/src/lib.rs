@@ -34,15 +34,13 @@ pub mod lanes;
 mod moments;
 mod polynomial;
 mod polynomial_sampler;
-mod quadrature;
 mod sampler;
 
 pub use builtin::{
     builtin, by_name, cubic_spline, quartic_spline, quintic_spline, wendland_c2, wendland_c4,
     wendland_c6,
 };
-pub use kernel::{Kernel, PolynomialKernel, ScalarSampler};
+pub use kernel::{Kernel, PolynomialKernel, ScalarSampler, gauss_points};
 pub use polynomial::PiecewisePolynomial;
 pub use polynomial_sampler::polynomial_sampler;
-pub use quadrature::gauss_points;
 pub use sampler::Sampler;

@@ -49,8 +49,6 @@ pub trait Sampler: Send + Sync + Debug {
 
 /// Panics unless h can be a smoothing length.
 pub(crate) fn assert_smoothing_length(h: f64) {
-    assert!(
-        h > 0.0 && h.is_finite(),
-        "the smoothing length must be positive, not {h}"
-    );
+    let valid = h > 0.0 && h.is_finite();
+    assert!(valid, "the smoothing length must be positive, not {h}");
 }

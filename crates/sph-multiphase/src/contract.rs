@@ -104,11 +104,8 @@ pub fn offer_interface<const D: usize>(
     offer: &mut Offer<D>,
 ) -> Result<(), Refusal> {
     if setting.phases.len() <= 1 {
-        return Err(Refusal::at_key(
-            "interface",
-            "",
-            "the scene has one phase, and interfaces are between two: take this table out, or add a phase",
-        ));
+        let why = "the scene has one phase, and interfaces are between two: take this table out, or add a phase";
+        return Err(Refusal::at_key("interface", "", why));
     }
     offer.terms.push(term);
     offer.remedy = Some(format!("lower the coefficients of {}", offer.path));

@@ -10,7 +10,6 @@ mod delta_multiphase;
 mod delta_sph;
 mod evenness;
 mod fickian;
-mod linear_exact;
 mod rhie_chow;
 mod shift_transport;
 

@@ -213,12 +213,8 @@ impl<const D: usize> BoundSurfaceTension<'_, D> {
 
     /// That of the interface at a particle.
     fn stress(&self, i: usize) -> Stress<D, f64> {
-        let volume = self.volume[i];
-        Stress::new(
-            self.colour[i],
-            self.tension * volume * volume,
-            self.isotropic,
-        )
+        let scale = self.tension * self.volume[i] * self.volume[i];
+        Stress::new(self.colour[i], scale, self.isotropic)
     }
 
     /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.

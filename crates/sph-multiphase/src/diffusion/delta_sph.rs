@@ -8,7 +8,7 @@ use sph_neighbours::{
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
-use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::balance::linear_exact;
 use crate::diffusion::{SmootherEntry, Smoothing};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours

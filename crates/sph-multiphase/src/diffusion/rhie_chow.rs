@@ -6,7 +6,7 @@ use sph_neighbours::{Around, Values, World, walk_into};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::balance::PRESSURE_SLOPE;
-use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::balance::linear_exact;
 use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
