@@ -1,8 +1,9 @@
-//! Sources and sinks of particles, and particles that come in.
+//! Sources and sinks of particles, particles that come in, and densities where particles come or go.
 
 use std::sync::Arc;
 
-use sph_core::{Access, StepError, Vect};
+use rayon::prelude::*;
+use sph_core::{Access, FieldError, StepError, Vect, fields};
 use sph_neighbours::World;
 
 /// A place where particles leave or come in at the end of a step.
@@ -60,4 +61,44 @@ pub struct Newborn<const D: usize> {
     /// Values of columns that contributions bring along, by the names of the columns; the others begin with the values
     /// of the columns.
     pub values: Arc<[(String, f64)]>,
+}
+
+/// K_a += s m_a Σ_p w(|r_a − p|) over places p of particles that come (s = −1) or go (s = +1), where densities are sums with a
+/// density constant K: no density jumps.
+///
+/// # Errors
+/// If there is no position or mass.
+pub fn even_out<const D: usize>(
+    world: &mut World<D>,
+    places: &[Vect<D>],
+    sign: f64,
+) -> Result<(), FieldError> {
+    let (Some(first), true) = (
+        places.first(),
+        world.free.has(fields::DENSITY_CONSTANT.name),
+    ) else {
+        return Ok(());
+    };
+    let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
+    let free = &world.free;
+    let (position, mass) = (free.get(fields::POSITION)?, free.get(fields::MASS)?);
+    let radius = world.kernel.support_radius();
+    // The box of the places, which most particles are far away from.
+    let around = |(low, high): (Vect<D>, Vect<D>), p| (low.inf(p), high.sup(p));
+    let (low, high) = places.iter().fold((*first, *first), around);
+    let (middle, reach) = ((low + high) * 0.5, (high - low) * 0.5);
+    let all = constant.par_iter_mut().zip(position).zip(mass);
+    all.with_min_len(1024).for_each(|((constant, x), m)| {
+        let apart = world.domain.nearest_image(x - middle).abs() - reach;
+        if apart.max() >= radius {
+            return;
+        }
+        for place in places {
+            let r2 = world.domain.nearest_image(x - place).norm_squared();
+            if r2 < radius * radius {
+                *constant += sign * m * world.kernel.at(r2.sqrt()).0;
+            }
+        }
+    });
+    world.free.put(fields::DENSITY_CONSTANT, constant)
 }

@@ -2,10 +2,11 @@
 //!
 //! An [`Integrator`] consists of kicks, drifts and evaluations, without particles.
 
-mod contract;
 mod schemes;
 #[cfg(test)]
 mod trial;
 
-pub use contract::{Integrator, IntegratorEntry, LimitCoefficients};
-pub use schemes::{LeapFrog, PredictorCorrector, SymplecticEuler, Verlet};
+pub use schemes::{
+    Integrator, IntegratorEntry, LeapFrog, LimitCoefficients, PredictorCorrector, SymplecticEuler,
+    Verlet,
+};

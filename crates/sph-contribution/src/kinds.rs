@@ -1,8 +1,9 @@
-//! Kinds of plugins that bring contributions.
+//! Kinds of plugins that bring contributions; pair terms that a scene names itself.
 
 use sph_core::reexport::inventory;
+use sph_neighbours::{TermEntry, Terms};
 
-use crate::{Contribution, Plugins};
+use crate::{Contribution, Offer, Plugins, Refusal, Setting};
 
 /// Contributions with the name of their kind.
 pub type Part<const D: usize> = (&'static str, Box<dyn Contribution<D>>);
@@ -94,4 +95,23 @@ macro_rules! contribution_kind {
             }
         }
     };
+}
+
+/// The plugins of `[term]`.
+struct NamedTerms<const D: usize>(Terms<D>);
+
+contributes!("term", NamedTerms);
+
+impl<const D: usize> FromPlugins<D> for NamedTerms<D> {
+    fn from_plugins(plugins: &Plugins) -> Option<Self> {
+        Some(NamedTerms(plugins.all::<D, TermEntry>()))
+    }
+}
+
+impl<const D: usize> Contribution<D> for NamedTerms<D> {
+    fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+        offer.terms.append(&mut self.0);
+        offer.remedy = Some("look at its parameters".into());
+        Ok(())
+    }
 }

@@ -6,8 +6,8 @@
 //!   velocities itself.
 //! * [`Gate`]: particles that leave, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
-//! * [`Limiter`]: a bound on the step; [`SoundLimit`] and [`ForceLimit`] are in every scene, [`MotionLimit`] where
-//!   walls move.
+//! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`sound_limit`] and [`force_limit`] are in every
+//!   scene, [`motion_limit`] where walls move.
 //! * [`contribution_kind!`] declares a kind: scenes may name its plugins, `sph plugins` and the schema list them.
 //! * [`contributes!`] declares the contribution of a kind whose plugins are something else; [`Plugins`] has the plugins of all
 //!   kinds for it. [`parts`] are the contributions of a scene.
@@ -17,29 +17,24 @@
 //! back when a step fails, and they alone are in checkpoints.
 #![doc = include_str!("../README.md")]
 
-mod column;
 mod contribution;
-mod even_out;
 mod gate;
 pub mod integrators;
 mod kinds;
 mod limits;
 mod offer;
 mod plugins;
-mod report;
 mod step_hook;
-mod terms;
 
-pub use column::{Birth, Initial, OwnColumn};
-pub use contribution::{Contribution, Refusal, Setting};
-pub use even_out::even_out;
-pub use gate::{Gate, Newborn};
+pub use contribution::{Birth, Contribution, Initial, OwnColumn, Refusal, Setting};
+pub use gate::{Gate, Newborn, even_out};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
-pub use limits::{ForceLimit, LightBodyLimit, Limiter, MotionLimit, SoundLimit};
+pub use limits::{
+    Limiter, bound, force_limit, largest, light_body_limit, motion_limit, sound_limit,
+};
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
-pub use report::Report;
-pub use step_hook::{Forces, Kick, OutsideForce, StepHook, StepMoment, StepPhase};
+pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

@@ -56,9 +56,15 @@ impl Plugins {
 
     /// The one plugin of a kind that the scene names, or the default.
     pub fn one<const D: usize, E: Makes<D>>(&self) -> Option<Box<E::Made>> {
-        let named = self.choices.iter().find(|c| c.kind == E::KIND.name);
-        let choice = named.cloned().or_else(default::<E>)?;
-        self.build::<D, E>(&choice)
+        self.build_one::<D, E>(&self.choices)
+    }
+
+    fn build_one<const D: usize, E: Makes<D>>(
+        &self,
+        choices: &[PluginChoice],
+    ) -> Option<Box<E::Made>> {
+        let named = choices.iter().find(|c| c.kind == E::KIND.name);
+        self.build::<D, E>(&named.cloned().or_else(default::<E>)?)
     }
 
     /// All plugins of a kind that the scene names.
@@ -70,11 +76,8 @@ impl Plugins {
 
     /// The plugins of a kind of all phases, or the default of those that name none, in the order of the phases.
     pub fn of_phases<const D: usize, E: Makes<D>>(&self) -> Vec<Box<E::Made>> {
-        let one = |choices: &Vec<PluginChoice>| {
-            let named = choices.iter().find(|c| c.kind == E::KIND.name);
-            self.build::<D, E>(&named.cloned().or_else(default::<E>)?)
-        };
-        self.phases.iter().filter_map(one).collect()
+        let phases = self.phases.iter();
+        phases.filter_map(|c| self.build_one::<D, E>(c)).collect()
     }
 
     /// Plugins of choices with names.
@@ -86,7 +89,6 @@ impl Plugins {
         choices.into_iter().filter_map(one).collect()
     }
 
-    /// The plugin of a choice.
     fn build<const D: usize, E: Makes<D>>(&self, choice: &PluginChoice) -> Option<Box<E::Made>> {
         let built = Registry::<E>::discovered()
             .and_then(|registry| registry.find(&choice.name))

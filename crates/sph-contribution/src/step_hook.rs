@@ -1,12 +1,10 @@
-//! Work of a piece of physics within a step, between the evaluations.
+//! Work of a piece of physics within a step, between the evaluations, and its counts and remarks.
 
 use std::sync::Arc;
 
 use serde_json::Value as Json;
 use sph_core::{Access, StepError};
 use sph_neighbours::{Interaction, WallForce, World};
-
-use crate::Report;
 
 /// A force that acts outside of the interaction sweep.
 pub type OutsideForce<const D: usize> = Arc<dyn Interaction<D>>;
@@ -120,4 +118,39 @@ pub trait Kick<const D: usize> {
     /// # Errors
     /// As [`StepHook::run`].
     fn kick(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError>;
+}
+
+/// Counts of a hook since the start, and its remarks at the end of a run.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// Counts, for checkpoints.
+    pub counts: Option<Json>,
+    /// Key of the counts in the summary; `None` leaves them out.
+    pub summary: Option<&'static str>,
+    /// The error that leaves the run without a result.
+    pub verdict: Option<StepError>,
+    /// Reasons to doubt the results.
+    pub warnings: Vec<String>,
+    /// Changes that a person may try next time.
+    pub advice: Vec<String>,
+    /// Most bytes that the hook has held beside columns.
+    pub most_bytes: usize,
+}
+
+impl Report {
+    /// A reason to doubt the results, and nothing else.
+    pub fn warning(text: impl Into<String>) -> Self {
+        Report {
+            warnings: vec![text.into()],
+            ..Report::default()
+        }
+    }
+
+    /// A change that a person may try next time, and nothing else.
+    pub fn advice(text: impl Into<String>) -> Self {
+        Report {
+            advice: vec![text.into()],
+            ..Report::default()
+        }
+    }
 }

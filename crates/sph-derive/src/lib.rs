@@ -1,5 +1,5 @@
 //! Attributes that declare a plugin and its parameters in one place; use them as `sph_core::plugin`,
-//! `sph_core::parameters` and, for the columns of a pair term, `sph_neighbours::pair_term`.
+//! `sph_core::parameters` and, for pair terms, `sph_neighbours::pair_term` and `sph_neighbours::pair_sum`.
 //!
 //! ```text
 //! /// τ = 2 η γ̇ with constant η.
@@ -17,7 +17,7 @@
 //! not derived twice; further attributes of `serde` and `schemars` stay possible.
 
 mod defaults;
-mod fields;
+mod pair_sum;
 mod pair_term;
 mod parameter;
 mod registration;
@@ -73,7 +73,7 @@ pub fn plain_parameters(arguments: TokenStream, item: TokenStream) -> TokenStrea
 }
 
 fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
-    let code = table::plain(item, is_plugin);
+    let code = table::expand(item, None, is_plugin);
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
@@ -85,26 +85,37 @@ fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
 /// * `#[both(FIELD, if condition)]`: a column that is read in some scenes only, an `Option` or else an empty slice;
 /// * `#[where_there(FIELD)]`: a column that not every scene has, an `Option`;
 /// * `#[rate(FIELD)]`: the slot of a rate that the term adds to;
+/// * `#[bound(expression)]`: columns of a source with `access` and `bind` of its own;
 /// * `#[value(expression)]`: a constant of the sweep.
 ///
 /// Expressions may use `self`, the term, and `world`.
 #[proc_macro_attribute]
 pub fn pair_term(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let term = parse_macro_input!(arguments as pair_term::Term);
-    let item = parse_macro_input!(item as DeriveInput);
-    let code = pair_term::expand(&term, item);
+    let code = pair_term::expand(&term, parse_macro_input!(item as DeriveInput));
+    code.unwrap_or_else(syn::Error::into_compile_error).into()
+}
+
+/// The sum of a pair term, written as one block of functions of the bound struct.
+///
+/// `own` and `pair` make its `PairSum`, with the types that they return and add to; `pair_at_walls` and the constants
+/// of the trait may be beside them. `finish` makes the `BoundTerm`, other functions stay with the struct. All are
+/// `#[inline(always)]`.
+#[proc_macro_attribute]
+pub fn pair_sum(_: TokenStream, item: TokenStream) -> TokenStream {
+    let code = pair_sum::expand(parse_macro_input!(item as syn::ItemImpl));
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
 /// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so
 /// that the uses of the type are no further errors.
 fn expanded(mut item: DeriveInput, root: &Tokens, registered: Option<Tokens>) -> TokenStream {
-    let error = match table::expand(item.clone(), root, registered.is_some()) {
+    let error = match table::expand(item.clone(), Some(root), registered.is_some()) {
         Ok(table) => return quote!(#table #registered).into(),
         Err(error) => error.into_compile_error(),
     };
-    table::take_words(&mut item);
-    let table = table::expand(item, root, registered.is_some()).ok();
+    table::take(&mut item, &["parameter"]);
+    let table = table::expand(item, Some(root), registered.is_some()).ok();
     let registered = table.is_some().then_some(registered);
     quote!(#error #table #registered).into()
 }

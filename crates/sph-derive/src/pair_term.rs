@@ -3,15 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::parse::{Parse, ParseStream};
-use syn::punctuated::Punctuated;
 use syn::{Attribute, Data, DeriveInput, Error, Expr, Field, GenericParam, Token, Type};
 
-use crate::fields::optional;
+use crate::defaults::optional;
 
 const FORM: &str = "expected `Term, \"name in plans\"`: the type of the parameters, and the name";
 const NAMED: &str = "a bound term is a struct with named fields";
 const WORDS: &str = "a field has one of `#[here(FIELD)]`, `#[both(FIELD)]`, `#[neighbours(FIELD)]`, `#[where_there(FIELD)]`, \
-     `#[rate(FIELD)]` and `#[value(expression)]`; a column may say when it is read: `#[both(FIELD, if condition)]`";
+     `#[rate(FIELD)]`, `#[bound(expression)]` and `#[value(expression)]`; a column may say when it is read: \
+     `#[both(FIELD, if condition)]`";
 
 /// The term and its name.
 pub struct Term {
@@ -39,67 +39,55 @@ struct Column {
 impl Parse for Column {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let field = input.parse()?;
-        let condition = match input.parse::<Option<Token![,]>>()? {
-            Some(_) if !input.is_empty() => {
-                input.parse::<Token![if]>()?;
-                Some(input.parse()?)
-            }
-            _ => None,
-        };
+        let comma = input.parse::<Option<Token![,]>>()?;
+        if comma.is_none() || input.is_empty() {
+            return Ok(Column {
+                field,
+                condition: None,
+            });
+        }
+        input.parse::<Token![if]>()?;
+        let condition = Some(input.parse()?);
         Ok(Column { field, condition })
     }
 }
 
-/// Access and initial value of a field of the bound term.
-struct Entry {
-    access: TokenStream,
-    value: TokenStream,
+/// Access and initial value of a field of the bound term; `None` without one of the words.
+fn entry(field: &Field, attribute: &Attribute) -> Option<syn::Result<(TokenStream, TokenStream)>> {
+    let word = attribute.path().get_ident()?.to_string();
+    let argument = || attribute.parse_args::<TokenStream>();
+    Some(match word.as_str() {
+        "value" => argument().map(|value| (TokenStream::new(), value)),
+        "bound" => argument().map(|source| {
+            let access = quote!(access = access.and((#source).access()););
+            (access, quote!((#source).bind(world)?))
+        }),
+        "rate" => argument().map(|rate| {
+            let access = quote!(access = access.writes(#rate););
+            (access, quote!(world.slot(#rate)?))
+        }),
+        "here" | "both" | "neighbours" | "where_there" => attribute
+            .parse_args()
+            .map(|given| column(&word, field, given)),
+        _ => return None,
+    })
 }
 
-impl Entry {
-    fn new(field: &Field, attribute: &Attribute) -> syn::Result<Self> {
-        let word = attribute.path().get_ident().map(ToString::to_string);
-        let word = word.unwrap_or_default();
-        if word == "value" {
-            let value: TokenStream = attribute.parse_args()?;
-            return Ok(Entry {
-                access: TokenStream::new(),
-                value: quote!(#value),
-            });
+fn column(word: &str, field: &Field, column: Column) -> (TokenStream, TokenStream) {
+    let (method, name) = (format_ident!("{word}"), column.field);
+    let add = quote!(access = access.#method(#name););
+    let get = quote!(world.free.get(#name));
+    match column.condition {
+        None if word == "where_there" => (add, quote!(#get.ok())),
+        None => (add, quote!(#get?)),
+        Some(condition) => {
+            let (found, none) = match optional(&field.ty).is_some() {
+                true => (quote!(Some(#get?)), quote!(None)),
+                false => (quote!(#get?), quote!(&[])),
+            };
+            let access = quote!(if #condition { #add });
+            (access, quote!(if #condition { #found } else { #none }))
         }
-        if word == "rate" {
-            let rate: TokenStream = attribute.parse_args()?;
-            return Ok(Entry {
-                access: quote!(access = access.writes(#rate);),
-                value: quote!(world.slot(#rate)?),
-            });
-        }
-        let Column {
-            field: column,
-            condition,
-        } = attribute.parse_args()?;
-        let method = format_ident!("{word}");
-        let add = quote!(access = access.#method(#column););
-        let get = quote!(world.free.get(#column));
-        let optional = optional(&field.ty).is_some();
-        Ok(match (condition, word == "where_there") {
-            (_, true) => Entry {
-                access: add,
-                value: quote!(#get.ok()),
-            },
-            (None, _) => Entry {
-                access: add,
-                value: quote!(#get?),
-            },
-            (Some(condition), _) if optional => Entry {
-                access: quote!(if #condition { #add }),
-                value: quote!(if #condition { Some(#get?) } else { None }),
-            },
-            (Some(condition), _) => Entry {
-                access: quote!(if #condition { #add }),
-                value: quote!(if #condition { #get? } else { &[] }),
-            },
-        })
     }
 }
 
@@ -113,42 +101,37 @@ pub fn expand(term: &Term, mut item: DeriveInput) -> syn::Result<TokenStream> {
         let Some(name) = field.ident.clone() else {
             return Err(Error::new_spanned(field, NAMED));
         };
-        let known = |a: &Attribute| {
-            let words = ["here", "both", "neighbours", "where_there", "rate", "value"];
-            words.iter().any(|word| a.path().is_ident(word))
-        };
-        let words: Vec<Attribute> = field.attrs.extract_if(.., |a| known(a)).collect();
-        let [word] = &words[..] else {
+        let mut entries = Vec::new();
+        for attribute in std::mem::take(&mut field.attrs) {
+            match entry(field, &attribute) {
+                Some(found) => entries.push(found?),
+                None => field.attrs.push(attribute),
+            }
+        }
+        let [(read, value)] = &entries[..] else {
             return Err(Error::new_spanned(name, WORDS));
         };
-        let entry = Entry::new(field, word)?;
-        access.extend(entry.access);
-        let value = entry.value;
+        access.extend(read.clone());
         fields.extend(quote!(#name: #value,));
     }
     let Term { of, name } = term;
     let bound = &item.ident;
-    let generics = item.generics.params.iter();
     // All but the lifetime: dimension and formulas, which the term has, too.
-    let own: Punctuated<GenericParam, Token![,]> = generics
-        .filter(|p| !matches!(p, GenericParam::Lifetime(_)))
-        .cloned()
-        .collect();
-    let names = own.iter().map(|p| match p {
-        GenericParam::Type(t) => t.ident.clone(),
-        GenericParam::Const(c) => c.ident.clone(),
-        GenericParam::Lifetime(l) => l.lifetime.ident.clone(),
+    let own = item.generics.params.iter();
+    let own = own.filter(|p| !matches!(p, GenericParam::Lifetime(_)));
+    let names = own.clone().map(|p| match p {
+        GenericParam::Type(t) => &t.ident,
+        GenericParam::Const(c) => &c.ident,
+        GenericParam::Lifetime(l) => &l.lifetime.ident,
     });
-    let has_dimension = own
-        .iter()
-        .any(|p| matches!(p, GenericParam::Const(c) if c.ident == "D"));
-    let dimension = (!has_dimension).then(|| quote!(const D: usize,));
     let names: Vec<_> = names.collect();
+    let has_dimension = names.iter().any(|name| *name == "D");
+    let dimension = (!has_dimension).then(|| quote!(const D: usize,));
     let bounds = &item.generics.where_clause;
     Ok(quote! {
         #item
 
-        impl<#dimension #own> ::sph_neighbours::PairTerm<D> for #of #bounds {
+        impl<#dimension #(#own),*> ::sph_neighbours::PairTerm<D> for #of #bounds {
             type Bound<'a> = #bound<'a, #(#names),*>;
             fn name(&self) -> String {
                 ::std::string::String::from(#name)
@@ -184,7 +167,7 @@ mod tests {
     fn columns_are_declared_and_looked_up() {
         let all = expanded(
             "struct Bound<'a> { #[both(V)] v: &'a [f64], #[here(M, if self.m)] m: Option<&'a [f64]>, \
-             #[value(self.c)] c: f64, #[rate(R)] slot: usize }",
+             #[value(self.c)] c: f64, #[rate(R)] slot: usize, #[bound(self.1)] source: Source<'a> }",
         );
         let all = all.expect("a term");
         for part in [
@@ -195,6 +178,8 @@ mod tests {
             "c:self.c,",
             "access=access.writes(R);",
             "slot:world.slot(R)?,",
+            "access=access.and((self.1).access());",
+            "source:(self.1).bind(world)?,",
             "impl<constD:usize,>::sph_neighbours::PairTerm<D>forDrag",
         ] {
             assert!(all.contains(part), "no `{part}` in {all}");

@@ -40,13 +40,11 @@ pub struct Parameter {
 impl Parameter {
     /// Those of the attribute `parameter`, which is taken out of the list; none without it.
     pub fn take_from(attributes: &mut Vec<Attribute>) -> syn::Result<Self> {
-        let Some(place) = attributes
-            .iter()
-            .position(|a| a.path().is_ident("parameter"))
-        else {
-            return Ok(Self::default());
-        };
-        attributes.remove(place).parse_args()
+        let mut all = attributes.iter();
+        match all.position(|a| a.path().is_ident("parameter")) {
+            Some(place) => attributes.remove(place).parse_args(),
+            None => Ok(Self::default()),
+        }
     }
 
     /// The attribute that adds the entries to the schema.
@@ -88,10 +86,8 @@ impl Parse for Parameter {
 
 fn unknown(word: &Ident) -> Error {
     let known = WORDS.map(|(known, _)| known).join("`, `");
-    Error::new_spanned(
-        word,
-        format!("unknown word `{word}`: a parameter has `default`, `{known}`"),
-    )
+    let message = format!("unknown word `{word}`: a parameter has `default`, `{known}`");
+    Error::new_spanned(word, message)
 }
 
 /// Tokens after a colon, up to the next comma.

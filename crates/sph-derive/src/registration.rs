@@ -18,15 +18,11 @@ impl Parse for Form {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let dimension: LitInt = input.parse()?;
         if !matches!(dimension.base10_digits(), "2" | "3") {
-            return Err(Error::new_spanned(
-                dimension,
-                "a plugin has 2 or 3 dimensions",
-            ));
+            let message = "a plugin has 2 or 3 dimensions";
+            return Err(Error::new_spanned(dimension, message));
         }
-        let of = match input.parse::<Option<Token![=>]>>()? {
-            Some(_) => Some(input.parse()?),
-            None => None,
-        };
+        let arrow = input.parse::<Option<Token![=>]>>()?;
+        let of = arrow.map(|_| input.parse()).transpose()?;
         Ok(Self { dimension, of })
     }
 }
@@ -78,8 +74,8 @@ impl Parse for Registration {
                     condition = Some(quote!(#[cfg(#condition_of)]));
                 }
                 _ => {
-                    let message =
-                        format!("unknown word `{word}`: a plugin has `source`, `within` and `cfg`");
+                    let known = "a plugin has `source`, `within` and `cfg`";
+                    let message = format!("unknown word `{word}`: {known}");
                     return Err(Error::new_spanned(word, message));
                 }
             }
@@ -110,35 +106,30 @@ impl Registration {
         } = self;
         let own = parameters.to_token_stream();
         let of = |form: &Form| {
-            form.of
-                .as_ref()
-                .map_or(own.clone(), ToTokens::to_token_stream)
+            let other = form.of.as_ref();
+            other.map_or(own.clone(), ToTokens::to_token_stream)
         };
         let forms = self.forms.as_deref();
-        let dimensions = match forms {
-            Some(forms) => {
-                let all = forms.iter().map(|f| &f.dimension);
-                quote!(&[#(#all),*])
-            }
-            None => quote!(<#entry as ::sph_core::Contract>::KIND.dimensions),
-        };
         let described = forms.and_then(<[Form]>::first).map_or(own.clone(), of);
-        let build = match forms {
+        let (dimensions, build) = match forms {
             None => {
                 let made = self.constructor(&own);
-                quote!(build: #made)
+                let of_kind = quote!(<#entry as ::sph_core::Contract>::KIND.dimensions);
+                (of_kind, quote!(build: #made))
             }
             Some(forms) => {
-                let form =
-                    |digits| match forms.iter().find(|f| f.dimension.base10_digits() == digits) {
-                        Some(form) => {
-                            let made = self.constructor(&of(form));
-                            quote!(::core::option::Option::Some(#made))
-                        }
+                let [planar, spatial] = ["2", "3"].map(|digits| {
+                    let form = forms.iter().find(|f| f.dimension.base10_digits() == digits);
+                    match form.map(|form| self.constructor(&of(form))) {
+                        Some(made) => quote!(::core::option::Option::Some(#made)),
                         None => quote!(::core::option::Option::None),
-                    };
-                let (planar, spatial) = (form("2"), form("3"));
-                quote!(build_2d: #planar, build_3d: #spatial)
+                    }
+                });
+                let all = forms.iter().map(|f| &f.dimension);
+                (
+                    quote!(&[#(#all),*]),
+                    quote!(build_2d: #planar, build_3d: #spatial),
+                )
             }
         };
         quote! {
@@ -174,10 +165,14 @@ impl Registration {
 mod tests {
     use super::*;
 
-    fn expanded(arguments: &str) -> String {
+    /// Fails unless the registration has all of some parts.
+    fn assert_parts(arguments: &str, parts: &[&str]) {
         let registration: Registration = syn::parse_str(arguments).expect("arguments");
         let name = Ident::new("Mine", proc_macro2::Span::call_site());
-        registration.expand(&name).to_string().replace(' ', "")
+        let code = registration.expand(&name).to_string().replace(' ', "");
+        for part in parts {
+            assert!(code.contains(part), "{part}: {code}");
+        }
     }
 
     fn problem(arguments: &str) -> String {
@@ -187,30 +182,23 @@ mod tests {
 
     #[test]
     fn every_dimension_is_built_from_its_own_type() {
-        let code = expanded(
-            r#"Entry [2 => Flat<2>, 3 => Deep], "n", "s", source: "p", within: Lanes, cfg(not(test))"#,
-        );
-        assert!(code.starts_with("#[cfg(not(test))]"), "{code}");
-        for part in [
-            "(Lanes)(::sph_core::typed::<Flat<2>>",
-            "typed::<Deep>",
+        let made = ["(Lanes)(::sph_core::typed::<Flat<2>>", "typed::<Deep>"];
+        let described = [
+            "#[cfg(not(test))]::sph_core",
             "&[2,3]",
             "schema_of::<Flat<2>>",
-        ] {
-            assert!(code.contains(part), "{part}: {code}");
-        }
+        ];
+        assert_parts(
+            r#"Entry [2 => Flat<2>, 3 => Deep], "n", "s", source: "p", within: Lanes, cfg(not(test))"#,
+            &[&made[..], &described].concat(),
+        );
     }
 
     #[test]
     fn a_form_that_is_missing_is_not_built() {
-        let code = expanded(r#"Entry [3], "n", "s", source: "p""#);
-        assert!(
-            code.contains("build_2d:::core::option::Option::None"),
-            "{code}"
-        );
-        assert!(code.contains("typed::<Mine>"), "{code}");
-        let code = expanded(r#"Entry, "n", "s", source: "p""#);
-        assert!(code.contains("build:|table|"), "{code}");
+        let parts = ["build_2d:::core::option::Option::None", "typed::<Mine>"];
+        assert_parts(r#"Entry [3], "n", "s", source: "p""#, &parts);
+        assert_parts(r#"Entry, "n", "s", source: "p""#, &["build:|table|"]);
     }
 
     #[test]
@@ -218,10 +206,8 @@ mod tests {
         assert!(problem(r#"Entry [4], "n", "s", source: "p""#).contains("2 or 3 dimensions"));
         assert!(problem(r#"Entry [2, 3], "n", "s""#).contains("source: "));
         assert!(problem(r#"Entry [2, 3] "n""#).contains("expected `Entry [2, 3],"));
-        let unknown = problem(r#"Entry, "n", "s", sauce: "p""#);
-        assert!(
-            unknown.contains("unknown word `sauce`: a plugin has `source`, `within` and `cfg`"),
-            "{unknown}"
-        );
+        let told = problem(r#"Entry, "n", "s", sauce: "p""#);
+        let unknown = "unknown word `sauce`: a plugin has `source`, `within` and `cfg`";
+        assert!(told.contains(unknown), "{told}");
     }
 }

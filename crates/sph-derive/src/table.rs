@@ -7,7 +7,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
 use crate::defaults::Defaults;
-use crate::fields::{is_number, is_skipped, words};
+use crate::defaults::{is_number, is_skipped, words};
 use crate::parameter::value;
 
 /// The module with `serde` and `schemars`.
@@ -19,29 +19,24 @@ impl Parse for Root {
             return Ok(Self(quote!(::sph_core::reexport)));
         }
         let word = input.call(Ident::parse_any)?;
+        let message = "expected `crate: path`, or nothing";
         match word == "crate" {
             true => value(&word, input).map(Self),
-            false => Err(Error::new_spanned(
-                word,
-                "expected `crate: path`, or nothing",
-            )),
+            false => Err(Error::new_spanned(word, message)),
         }
     }
 }
 
-/// A type whose words have been read, and its further attributes.
-struct AnnotatedType {
-    item: DeriveInput,
-    derives: Vec<&'static str>,
-    /// Words for `serde`.
-    serde: Vec<TokenStream>,
-    defaults: Defaults,
-    /// `Default` of the type, if every field has one.
-    default: Option<TokenStream>,
-}
-
-/// A plugin that keeps more than its parameters is no value to copy or to print.
-fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
+/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without
+/// scenes: its words and those for `serde` and `schemars` are gone, and with them the traits of texts.
+///
+/// # Errors
+/// Unknown words; a union; fields without names.
+pub fn expand(
+    mut item: DeriveInput,
+    root: Option<&TokenStream>,
+    is_plugin: bool,
+) -> syn::Result<TokenStream> {
     let derived = words(&item.attrs, "derive");
     let said = words(&item.attrs, "serde");
     let plain = item.generics.params.is_empty() && is_plain(&item.data);
@@ -54,6 +49,7 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
         Data::Enum(data) => of_choice(data, &mut defaults, &said, (&mut derives, &mut serde))?,
         Data::Union(_) => return Err(Error::new_spanned(&item, "expected a struct or an enum")),
     }
+    // A plugin that keeps more than its parameters is no value to copy or to print.
     if plain || !(is_plugin && keeps) {
         derives.extend(["Clone", "Debug"]);
     }
@@ -62,27 +58,16 @@ fn read(mut item: DeriveInput, is_plugin: bool) -> syn::Result<AnnotatedType> {
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    Ok(AnnotatedType {
-        item,
-        derives,
-        serde,
-        defaults,
-        default,
-    })
-}
-
-/// The type with the words of its attribute.
-///
-/// # Errors
-/// Unknown words; a union; fields without names.
-pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Result<TokenStream> {
-    let AnnotatedType {
-        item,
-        derives,
-        serde,
-        defaults,
-        default,
-    } = read(item, is_plugin)?;
+    let Some(root) = root else {
+        take(&mut item, &["serde", "schemars"]);
+        derives.retain(|name| !["Deserialize", "JsonSchema", "Serialize"].contains(name));
+        let derives = derives
+            .iter()
+            .map(|name| path_of(name, &TokenStream::new()));
+        // The values of single fields are called by the whole alone.
+        let defaults = default.is_some().then_some(defaults);
+        return Ok(quote!(#[derive(#(#derives),*)] #item #defaults #default));
+    };
     let derives = derives.iter().map(|name| path_of(name, root));
     let place = root.to_string().replace(' ', "");
     let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
@@ -96,40 +81,8 @@ pub fn expand(item: DeriveInput, root: &TokenStream, is_plugin: bool) -> syn::Re
     })
 }
 
-/// The type as it is without scenes: its words and those for `serde` and `schemars` are gone, and with them the traits
-/// that read it from a text and write it.
-///
-/// # Errors
-/// As [`expand`].
-pub fn plain(item: DeriveInput, is_plugin: bool) -> syn::Result<TokenStream> {
-    let AnnotatedType {
-        mut item,
-        derives,
-        defaults,
-        default,
-        ..
-    } = read(item, is_plugin)?;
-    take(&mut item, &["serde", "schemars"]);
-    let texts = ["Deserialize", "JsonSchema", "Serialize"];
-    let derives = derives.iter().filter(|name| !texts.contains(name));
-    let derives = derives.map(|name| path_of(name, &TokenStream::new()));
-    // The values of single fields are called by the whole alone.
-    let defaults = default.is_some().then_some(defaults);
-    Ok(quote! {
-        #[derive(#(#derives),*)]
-        #item
-        #defaults
-        #default
-    })
-}
-
-/// Takes the words of parameters away.
-pub fn take_words(item: &mut DeriveInput) {
-    take(item, &["parameter"]);
-}
-
 /// Takes the attributes of these names away.
-fn take(item: &mut DeriveInput, names: &[&str]) {
+pub fn take(item: &mut DeriveInput, names: &[&str]) {
     let mut lists = vec![&mut item.attrs];
     let fields: Vec<&mut Fields> = match &mut item.data {
         Data::Struct(data) => vec![&mut data.fields],
@@ -148,7 +101,6 @@ fn take(item: &mut DeriveInput, names: &[&str]) {
     }
 }
 
-/// The path of a trait that is derived.
 fn path_of(name: &str, root: &TokenStream) -> TokenStream {
     match name {
         "Clone" => quote!(::core::clone::Clone),
@@ -177,10 +129,8 @@ fn of_struct(
             return Ok(None);
         }
         _ => {
-            return Err(Error::new(
-                data.struct_token.span,
-                "expected named fields, `{}` for none",
-            ));
+            let message = "expected named fields, `{}` for none";
+            return Err(Error::new(data.struct_token.span, message));
         }
     };
     serde.push(quote!(deny_unknown_fields));
@@ -203,10 +153,8 @@ fn of_choice(
         derives.extend(["PartialEq", "Eq", "Serialize"]);
     }
     let is_default = |a: &Attribute| a.path().is_ident("default");
-    if variants
-        .iter()
-        .any(|variant| variant.attrs.iter().any(is_default))
-    {
+    let mut attributes = variants.iter().flat_map(|variant| &variant.attrs);
+    if attributes.any(is_default) {
         derives.push("Default");
     }
     let is_said = |key: &str| said.iter().any(|s| s == key || s == "untagged");
@@ -242,25 +190,29 @@ mod tests {
 
     fn expanded(item: &str, is_plugin: bool) -> String {
         let item = syn::parse_str(item).expect("an item");
-        let code = expand(item, &quote!(::root), is_plugin);
-        code.unwrap_or_else(Error::into_compile_error)
-            .to_string()
-            .replace(' ', "")
+        let code = expand(item, Some(&quote!(::root)), is_plugin);
+        let code = code.unwrap_or_else(Error::into_compile_error);
+        code.to_string().replace(' ', "")
+    }
+
+    /// Fails unless the code has some parts and lacks others.
+    fn assert_parts(code: &str, has: &[&str], lacks: &[&str]) {
+        has.iter()
+            .for_each(|part| assert!(code.contains(part), "no {part}: {code}"));
+        lacks
+            .iter()
+            .for_each(|part| assert!(!code.contains(part), "{part}: {code}"));
     }
 
     #[test]
     fn numbers_are_copied_and_what_is_kept_is_not_cloned() {
         let numbers = "struct A { a: f64, b: Option<[u32; 2]> }";
-        assert!(expanded(numbers, true).contains("marker::Copy"));
+        assert_parts(&expanded(numbers, true), &["marker::Copy"], &[]);
         let text = "struct A { a: String }";
-        let code = expanded(text, true);
-        assert!(
-            code.contains("clone::Clone") && !code.contains("marker::Copy"),
-            "{code}"
-        );
+        assert_parts(&expanded(text, true), &["clone::Clone"], &["marker::Copy"]);
         let keeps = "struct A { #[serde(skip)] a: Mutex<f64> }";
-        assert!(!expanded(keeps, true).contains("clone::Clone"));
-        assert!(expanded(keeps, false).contains("clone::Clone"));
+        assert_parts(&expanded(keeps, true), &[], &["clone::Clone"]);
+        assert_parts(&expanded(keeps, false), &["clone::Clone"], &[]);
         let code = expanded("#[derive(Clone, Default)] struct A { a: f64 }", true);
         assert_eq!(code.matches("Clone").count(), 1, "{code}");
     }
@@ -268,37 +220,27 @@ mod tests {
     #[test]
     fn a_table_has_a_default_if_every_field_has_one() {
         let all = "struct A { #[parameter(default: 0.5)] a: f64, b: Option<f64> }";
-        let code = expanded(all, false);
-        assert!(code.contains("default::DefaultforA"), "{code}");
-        assert!(
-            code.contains(r#"#[serde(default="A::default_a")]"#),
-            "{code}"
-        );
+        let call = r#"#[serde(default="A::default_a")]"#;
+        assert_parts(&expanded(all, false), &["default::DefaultforA", call], &[]);
         let some = "struct A { #[parameter(default)] a: f64, b: f64 }";
-        let code = expanded(some, false);
-        assert!(
-            !code.contains("DefaultforA") && code.contains("#[serde(default)]"),
-            "{code}"
+        assert_parts(
+            &expanded(some, false),
+            &["#[serde(default)]"],
+            &["DefaultforA"],
         );
     }
 
     #[test]
     fn choices_are_in_kebab_case_unless_an_author_says_otherwise() {
         let code = expanded("enum A { #[default] OneTwo, Three }", false);
-        assert!(
-            code.contains(r#"rename_all="kebab-case""#) && code.contains("cmp::Eq"),
-            "{code}"
+        let kebab = r#"rename_all="kebab-case""#;
+        assert_parts(&code, &[kebab, "cmp::Eq", "default::Default"], &[]);
+        let own = r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#;
+        assert_parts(
+            &expanded(own, false),
+            &["deny_unknown_fields"],
+            &["kebab", "cmp::Eq"],
         );
-        assert!(code.contains("default::Default"), "{code}");
-        let code = expanded(
-            r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#,
-            false,
-        );
-        assert!(
-            !code.contains("kebab") && code.contains("deny_unknown_fields"),
-            "{code}"
-        );
-        assert!(!code.contains("cmp::Eq"), "{code}");
     }
 
     #[test]
@@ -308,39 +250,34 @@ mod tests {
             "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
         ] {
             let mut item: DeriveInput = syn::parse_str(item).expect("an item");
-            assert!(expand(item.clone(), &quote!(::root), true).is_err());
-            take_words(&mut item);
-            assert!(expand(item, &quote!(::root), true).is_ok());
+            assert!(expand(item.clone(), Some(&quote!(::root)), true).is_err());
+            take(&mut item, &["parameter"]);
+            assert!(expand(item, Some(&quote!(::root)), true).is_ok());
         }
     }
 
     #[test]
     fn a_plain_type_has_its_default_and_nothing_of_texts() {
-        let item =
-            r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
         let bare = |item: &str| {
-            let code = plain(syn::parse_str(item).expect("an item"), true).expect("words");
+            let code = expand(syn::parse_str(item).expect("an item"), None, true).expect("words");
             code.to_string().replace(' ', "")
         };
-        let code = bare(item);
-        for gone in ["serde", "schema", "unit"] {
-            assert!(!code.contains(gone), "{gone}: {code}");
-        }
-        assert!(code.contains("default::DefaultforA") && code.contains("marker::Copy"));
-        let code = bare("struct A { #[parameter(default: 0.5)] a: f64, b: f64 }");
-        assert!(!code.contains("default_a"), "without a call: {code}");
-        let code = bare("enum A { #[default] #[serde(rename = \"b\")] B, C }");
-        assert!(code.contains("#[default]B"), "{code}");
-        assert!(
-            code.contains("cmp::Eq") && !code.contains("serde"),
-            "{code}"
-        );
+        let item =
+            r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
+        let has = ["default::DefaultforA", "marker::Copy"];
+        assert_parts(&bare(item), &has, &["serde", "schema", "unit"]);
+        // The function would have no call.
+        let some = "struct A { #[parameter(default: 0.5)] a: f64, b: f64 }";
+        assert_parts(&bare(some), &[], &["default_a"]);
+        let choice = "enum A { #[default] #[serde(rename = \"b\")] B, C }";
+        assert_parts(&bare(choice), &["#[default]B", "cmp::Eq"], &["serde"]);
     }
 
     #[test]
     fn one_field_without_a_name_is_the_table_itself() {
-        assert!(expanded("struct A(B);", true).contains("transparent"));
-        assert!(expanded("struct A(B, C);", true).contains("expectednamedfields"));
-        assert!(expanded("struct A;", true).contains("expectednamedfields"));
+        assert_parts(&expanded("struct A(B);", true), &["transparent"], &[]);
+        for item in ["struct A(B, C);", "struct A;"] {
+            assert_parts(&expanded(item, true), &["expectednamedfields"], &[]);
+        }
     }
 }

@@ -78,9 +78,8 @@ kernels! {
 
     /// Wendland C6.
     ///
-    /// f(q) = (1 − q/2)⁸ (1 + 4q + 25/4 q² + 4q³) for q < 2, six times continuously
-    /// differentiable. σ_d = 39/(14π), 1365/(512π) for d = 2, 3, and 15/16 for the same function
-    /// in 1D.
+    /// f(q) = (1 − q/2)⁸ (1 + 4q + 25/4 q² + 4q³) for q < 2, six times continuously differentiable. σ_d = 39/(14π),
+    /// 1365/(512π) for d = 2, 3, and 15/16 for the same function in 1D.
     ///
     /// Positive Fourier transform in one to three dimensions; see [`wendland_c2`] about 1D.
     ///
@@ -99,9 +98,8 @@ kernels! {
     /// f(q) = ¼ (2 − q)₊³ − (1 − q)₊³, that is 1 − 3/2 q² + 3/4 q³ for q < 1; twice continuously
     /// differentiable. σ_d = 2/3, 10/(7π), 1/π for d = 1, 2, 3.
     ///
-    /// The Fourier transform has negative lobes in two and three dimensions (lowest ŵ/ŵ(0):
-    /// −6.4·10⁻⁴ at kh = 7.3 and −6.0·10⁻⁴ at 7.9): particles pair when they have too many
-    /// neighbours.
+    /// The Fourier transform has negative lobes in two and three dimensions (lowest ŵ/ŵ(0): −6.4·10⁻⁴ at kh = 7.3 and
+    /// −6.0·10⁻⁴ at 7.9): particles pair when they have too many neighbours.
     ///
     /// Source: Monaghan & Lattanzio (1985), A&A 149, 135, eq. (21); Price (2012), doi:10.1016/j.jcp.2010.12.011.
     ///
@@ -160,13 +158,11 @@ fn spline(n: usize, terms: &[(f64, f64)]) -> PiecewisePolynomial {
     let mut breaks = vec![0.0];
     let mut pieces = Vec::new();
     for k in (0..terms.len()).rev() {
-        let piece = terms[..=k]
-            .iter()
-            .fold(Vec::new(), |total, &(edge, weight)| {
-                sum(&total, &scaled(&power(&[edge, -1.0], n), weight))
-            });
+        let add = |total: Vec<f64>, (edge, weight): &(f64, f64)| {
+            sum(&total, &scaled(&power(&[*edge, -1.0], n), *weight))
+        };
         breaks.push(terms[k].0);
-        pieces.push(piece);
+        pieces.push(terms[..=k].iter().fold(Vec::new(), add));
     }
     PiecewisePolynomial { breaks, pieces }
 }

@@ -1,87 +1,63 @@
 //! Sums and products in twice the precision of f64, for set-up work.
 
-/// The unevaluated sum `high + low` with |low| ≤ ulp(high)/2.
+/// The unevaluated sum of two numbers, of which the second is at most half an ulp of the first.
 ///
-/// Moments of high-order kernels cancel twelve of sixteen digits between the monomials; with
-/// 32 digits their sums are exact to the last bit of the result.
+/// Moments of high-order kernels cancel twelve of sixteen digits between the monomials; with 32 digits their sums are
+/// exact to the last bit of the result.
 /// Source: Dekker (1971), Numerische Mathematik 18, doi:10.1007/BF01397083.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DoubleDouble {
-    high: f64,
-    low: f64,
-}
+pub(crate) struct DoubleDouble(f64, f64);
 
 impl DoubleDouble {
-    pub(crate) const ZERO: Self = Self {
-        high: 0.0,
-        low: 0.0,
-    };
-    pub(crate) const ONE: Self = Self {
-        high: 1.0,
-        low: 0.0,
-    };
+    pub(crate) const ZERO: Self = Self(0.0, 0.0);
+    pub(crate) const ONE: Self = Self(1.0, 0.0);
 
     /// Nearest f64.
     pub(crate) fn value(self) -> f64 {
-        self.high + self.low
+        self.0 + self.1
     }
 
     pub(crate) fn plus(self, other: Self) -> Self {
-        let sum = two_sum(self.high, other.high);
-        normalised(sum.high, sum.low + self.low + other.low)
+        let (high, low) = two_sum(self.0, other.0);
+        normalised(high, low + self.1 + other.1)
     }
 
     pub(crate) fn minus(self, other: Self) -> Self {
-        self.plus(Self {
-            high: -other.high,
-            low: -other.low,
-        })
+        self.plus(Self(-other.0, -other.1))
     }
 
     pub(crate) fn times(self, b: f64) -> Self {
-        let product = two_product(self.high, b);
-        normalised(product.high, product.low + self.low * b)
+        let (high, low) = two_product(self.0, b);
+        normalised(high, low + self.1 * b)
     }
 
     pub(crate) fn over(self, b: f64) -> Self {
-        let quotient = self.high / b;
-        let back = two_product(quotient, b);
-        let rest = (self.high - back.high) - back.low + self.low;
+        let quotient = self.0 / b;
+        let (high, low) = two_product(quotient, b);
+        let rest = (self.0 - high) - low + self.1;
         normalised(quotient, rest / b)
     }
 
     /// xⁿ; negative n by division.
     pub(crate) fn power(x: f64, n: i32) -> Self {
-        let step = |result: Self| {
-            if n < 0 {
-                result.over(x)
-            } else {
-                result.times(x)
-            }
-        };
-        (0..n.unsigned_abs()).fold(Self::ONE, |result, _| step(result))
+        let step = if n < 0 { Self::over } else { Self::times };
+        (0..n.unsigned_abs()).fold(Self::ONE, |result, _| step(result, x))
     }
 }
 
-fn two_sum(a: f64, b: f64) -> DoubleDouble {
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let high = a + b;
     let b_part = high - a;
-    DoubleDouble {
-        high,
-        low: (a - (high - b_part)) + (b - b_part),
-    }
+    (high, (a - (high - b_part)) + (b - b_part))
 }
 
 /// As [`two_sum`] for |a| ≥ |b|.
 fn normalised(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    DoubleDouble {
-        high,
-        low: b - (high - a),
-    }
+    DoubleDouble(high, b - (high - a))
 }
 
-fn two_product(a: f64, b: f64) -> DoubleDouble {
+fn two_product(a: f64, b: f64) -> (f64, f64) {
     let split = |x: f64| {
         let c = 134_217_729.0 * x; // 2²⁷ + 1
         let high = c - (c - x);
@@ -89,10 +65,7 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
     };
     let ((a1, a2), (b1, b2)) = (split(a), split(b));
     let high = a * b;
-    DoubleDouble {
-        high,
-        low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2,
-    }
+    (high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2)
 }
 
 #[cfg(test)]
@@ -103,9 +76,8 @@ mod tests {
     fn a_cancelling_sum_keeps_its_small_part() {
         // (1 + 2⁻⁴⁰)² − 1 − 2⁻³⁹ = 2⁻⁸⁰, lost in plain f64.
         let x = 1.0 + 2f64.powi(-40);
-        let rest = DoubleDouble::power(x, 2)
-            .minus(DoubleDouble::ONE)
-            .minus(DoubleDouble::ONE.times(2f64.powi(-39)));
+        let rest = DoubleDouble::power(x, 2).minus(DoubleDouble::ONE);
+        let rest = rest.minus(DoubleDouble::ONE.times(2f64.powi(-39)));
         assert_eq!(rest.value(), 2f64.powi(-80));
     }
 
@@ -113,11 +85,8 @@ mod tests {
     fn thirds_come_back() {
         let third = DoubleDouble::ONE.over(3.0);
         let rest = third.plus(third).plus(third).minus(DoubleDouble::ONE);
-        assert!(
-            rest.value().abs() < 1e-31,
-            "1/3 + 1/3 + 1/3 − 1 = {:e}",
-            rest.value()
-        );
+        let rest = rest.value();
+        assert!(rest.abs() < 1e-31, "1/3 + 1/3 + 1/3 − 1 = {rest:e}");
         assert_eq!(DoubleDouble::power(2.0, -3).value(), 0.125);
         assert_eq!(DoubleDouble::ZERO.value(), 0.0);
     }

@@ -1,5 +1,4 @@
-//! Formulas in q of constant size, so that loops over them become vector
-//! instructions.
+//! Formulas in q of constant size, so that loops over them become vector instructions.
 
 use std::fmt::Debug;
 
@@ -57,9 +56,8 @@ impl<const K: usize, const N: usize, const DIVIDED: bool> Selection<K, N, DIVIDE
     /// The pieces in this form, if they fit.
     pub(crate) fn from_pieces(pieces: &Pieces) -> Option<Self> {
         let list: &[Piece; K] = pieces.list.as_slice().try_into().ok()?;
-        let fits = list
-            .iter()
-            .all(|piece| piece.root == 0 && piece.coefficients.len() <= N);
+        let mut each = list.iter();
+        let fits = each.all(|piece| piece.root == 0 && piece.coefficients.len() <= N);
         let divided = list.iter().any(|piece| piece.until > pieces.divided_from);
         if !fits || divided != DIVIDED {
             return None;
@@ -85,10 +83,9 @@ impl<const K: usize, const N: usize, const DIVIDED: bool> Formula for Selection<
             let p = horner(&self.coefficients[k], (q - self.origin[k]).abs());
             result = if q >= self.until[k] { result } else { p };
         }
-        if DIVIDED {
-            result / divisor(q, self.divided_from)
-        } else {
-            result
+        match DIVIDED {
+            true => result / divisor(q, self.divided_from),
+            false => result,
         }
     }
 }
@@ -159,26 +156,18 @@ mod tests {
     fn known_sizes_compute_what_loops_compute() {
         let (wendland, spline) = (wendland_c6(), quintic_spline());
         let f = factored::value(wendland.shape(), 1.0);
-        assert_close(
-            &Product::<8, 4>::from_pieces(&f).expect("its form"),
-            &AnyPieces(f),
-            2.0,
-        );
+        let product = Product::<8, 4>::from_pieces(&f).expect("its form");
+        assert_close(&product, &AnyPieces(f), 2.0);
         let g = factored::factor(spline.shape(), 1.0);
-        assert_close(
-            &Selection::<3, 5, true>::from_pieces(&g).expect("its form"),
-            &AnyPieces(g),
-            3.0,
-        );
+        let selection = Selection::<3, 5, true>::from_pieces(&g).expect("its form");
+        assert_close(&selection, &AnyPieces(g), 3.0);
     }
 
     #[test]
     fn other_forms_are_refused() {
         let f = factored::value(wendland_c6().shape(), 1.0);
-        assert!(
-            Product::<8, 3>::from_pieces(&f).is_none()
-                && Product::<7, 4>::from_pieces(&f).is_none()
-        );
+        assert!(Product::<8, 3>::from_pieces(&f).is_none());
+        assert!(Product::<7, 4>::from_pieces(&f).is_none());
         assert!(Selection::<1, 12, false>::from_pieces(&f).is_none());
         let g = factored::factor(quintic_spline().shape(), 1.0);
         assert!(Selection::<3, 5, false>::from_pieces(&g).is_none());

@@ -4,9 +4,8 @@ use crate::algebra;
 
 /// f(q) on consecutive intervals of q = r/h, zero beyond the last break.
 ///
-/// Interval `k` is `[breaks[k], breaks[k + 1])` with `breaks[0] = 0`; its polynomial is
-/// `Σ_n pieces[k][n] qⁿ` in the global variable q (not in the distance from the break).
-/// The shape is not normalised: w(r) = σ_d / h^d · f(r/h).
+/// Interval `k` is `[breaks[k], breaks[k + 1])` with `breaks[0] = 0`; its polynomial is `Σ_n pieces[k][n] qⁿ` in the
+/// global variable q (not in the distance from the break). The shape is not normalised: w(r) = σ_d / h^d · f(r/h).
 ///
 /// ```
 /// use sph_kernels::PiecewisePolynomial;
@@ -51,10 +50,9 @@ impl PiecewisePolynomial {
     pub fn check(&self) -> Result<(), String> {
         let (breaks, pieces) = (&self.breaks, &self.pieces);
         if pieces.is_empty() || breaks.len() != pieces.len() + 1 {
+            let (pieces, breaks) = (pieces.len(), breaks.len());
             return Err(format!(
-                "{} pieces need one break more than that, and there are {}",
-                pieces.len(),
-                breaks.len()
+                "{pieces} pieces need one break more than that, and there are {breaks}"
             ));
         }
         if breaks[0] != 0.0 {

@@ -14,8 +14,7 @@ use crate::{PiecewisePolynomial, Sampler};
 /// fused multiply-add: the bits depend neither on the place in the slice nor on the processor.
 ///
 /// # Panics
-/// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2 or 3
-/// or h is not positive.
+/// If the shape is refused by [`PiecewisePolynomial::check`], the dimension is not 1, 2 or 3 or h is not positive.
 pub fn polynomial_sampler(
     shape: &PiecewisePolynomial,
     dimension: usize,
@@ -57,7 +56,6 @@ pub fn polynomial_sampler(
     })
 }
 
-/// Dimension, scale and reach.
 #[derive(Clone, Debug)]
 struct Range {
     dimension: usize,
@@ -100,28 +98,22 @@ impl<V: Formula, F: Formula> Sampler for PolynomialSampler<V, F> {
     fn dimension(&self) -> usize {
         self.range.dimension
     }
-
     fn smoothing_length(&self) -> f64 {
         self.range.h
     }
-
     fn support_radius(&self) -> f64 {
         self.range.radius
     }
-
     fn value_at_zero(&self) -> f64 {
         self.value.at(0.0)
     }
-
     fn at(&self, r: f64) -> (f64, f64) {
         let q = self.range.q(r * r);
         (self.value.at(q), self.factor.at(q))
     }
-
     fn value(&self, r2: &[f64], w: &mut [f64]) {
         self.range.fill(&self.value, r2, w);
     }
-
     fn gradient_factor(&self, r2: &[f64], factor: &mut [f64]) {
         self.range.fill(&self.factor, r2, factor);
     }
@@ -139,14 +131,8 @@ impl<F: Formula> Body for Loop<'_, F> {
     type Output = ();
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let Loop {
-            range,
-            formula,
-            r2,
-            out,
-        } = self;
-        for (out, r2) in out.iter_mut().zip(r2) {
-            *out = formula.at(range.q(*r2));
+        for (out, r2) in self.out.iter_mut().zip(self.r2) {
+            *out = self.formula.at(self.range.q(*r2));
         }
     }
 }

@@ -4,9 +4,8 @@ use std::fmt::Debug;
 
 /// A kernel bound to a dimension d and a smoothing length h.
 ///
-/// w(r) = σ_d / h^d f(r/h) in 1/m^d and F(r) = w'(r)/r in 1/m^(d+2), so that
-/// ∇w_ab = F(r_ab) r_ab without division by r. Both are exactly 0 for
-/// r² ≥ `support_radius()²`, and F is finite at r = 0.
+/// w(r) = σ_d / h^d f(r/h) in 1/m^d and F(r) = w'(r)/r in 1/m^(d+2), so that ∇w_ab = F(r_ab) r_ab without division by
+/// r. Both are exactly 0 for r² ≥ `support_radius()²`, and F is finite at r = 0.
 ///
 /// Every result depends on its own r² alone, bit for bit: slices may be cut anywhere. A NaN
 /// distance gives NaN, so that a broken run is seen.
@@ -50,8 +49,6 @@ pub trait Sampler: Send + Sync + Debug {
 
 /// Panics unless h can be a smoothing length.
 pub(crate) fn assert_smoothing_length(h: f64) {
-    assert!(
-        h > 0.0 && h.is_finite(),
-        "the smoothing length must be positive, not {h}"
-    );
+    let valid = h > 0.0 && h.is_finite();
+    assert!(valid, "the smoothing length must be positive, not {h}");
 }

@@ -2,11 +2,11 @@
 
 use std::sync::OnceLock;
 
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-use sph_core::{Stage, StepError, StepLimit, Symmetric, Vect, fields, plugin, stage};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
+use sph_core::{Stage, StepError, Symmetric, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Sums, Values, WallSet,
-    World, add_scaled, all_sums, declared, pair_term, walk_some,
+    Lane, LanePair, Neighbourhood, Particles, Rates, Sums, Values, WallSet, World, add_scaled,
+    all_sums, declared, pair_sum, pair_term, walk_some,
 };
 use sph_rheology::state::Reference;
 
@@ -52,11 +52,8 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         offer.stage(resistance(laws.clone().map(impedance).collect(), densities));
         offer.term(DampingForce);
         if self.strength > 0.0 {
-            offer.limiter(DamperLimit {
-                strength: self.strength,
-                fastest: laws.map(|r| r.sound_speed).fold(0.0, f64::max),
-                wave: OnceLock::new(),
-            });
+            let fastest = laws.map(|r| r.sound_speed).fold(0.0, f64::max);
+            offer.limiter(damper_limit(self.strength, fastest));
         }
         offer.remedy = Some(format!("lower the strength in {}", offer.path));
         Ok(())
@@ -71,11 +68,9 @@ sph_core::fields! {
 /// q of [`AcousticDamper`], with α ρ₀ c, kg/(m² s), and ρ₀, kg/m³, of every phase.
 fn resistance<const D: usize>(impedance: Vec<f64>, densities: Vec<f64>) -> impl Stage<World<D>> {
     let term = [Divergence::boxed::<D>(OwnVolume)];
-    let mut access = term[0].access().both(fields::POSITION);
-    access = access
-        .here((fields::MASS, fields::PRESSURE))
-        .where_there(MOMENT_EXCESS)
-        .writes(DAMPING_PRESSURE);
+    let access = term[0].access().both(fields::POSITION);
+    let access = access.here((fields::MASS, fields::PRESSURE));
+    let mut access = access.where_there(MOMENT_EXCESS).writes(DAMPING_PRESSURE);
     if densities.len() > 1 {
         access = access.both(fields::PHASE);
     }
@@ -135,32 +130,24 @@ fn lightest<const D: usize>(
 }
 
 /// Δt ≤ 1/(α h c S²), S = max_k ΣV|∂w/∂x sin kx| on a lattice, 1.2/h: half of where the fastest mode would be turned round.
-struct DamperLimit {
-    strength: f64,
-    fastest: f64,
-    /// S, 1/m: lattice and kernel stay.
-    wave: OnceLock<f64>,
+fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> {
+    let formula = format!("acoustic damper: dt <= 1 / ({strength} h c S²)");
+    let remedy = "a smaller `strength` of the damper lengthens the step";
+    // Lattice and kernel stay.
+    let wave = OnceLock::new();
+    bound(
+        "acoustic damper",
+        formula,
+        Some(remedy),
+        move |world: &World<D>| {
+            let wave = wave.get_or_init(|| shortest_wave(world));
+            Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
+        },
+    )
 }
 
-impl<const D: usize> Limiter<D> for DamperLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let wave = self.wave.get_or_init(|| shortest_wave(world));
-        let h = world.kernel.smoothing_length();
-        let dt = 1.0 / (self.strength * h * self.fastest * wave * wave);
-        Ok(StepLimit::new("acoustic damper", dt))
-    }
-    fn remedy(&self) -> Option<String> {
-        Some("a smaller `strength` of the damper lengthens the step".into())
-    }
-    fn formula(&self) -> String {
-        format!("acoustic damper: dt <= 1 / ({} h c S²)", self.strength)
-    }
-}
-
-/// The force of [`AcousticDamper`].
 struct DampingForce;
 
-/// [`DampingForce`] with its columns.
 #[pair_term(DampingForce, "acoustic damper")]
 struct BoundDamping<'a, const D: usize> {
     #[both(DAMPING_PRESSURE)]
@@ -173,23 +160,19 @@ struct BoundDamping<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize> PairSum<D> for BoundDamping<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundDamping<'_, D> {
     const SCALED: bool = true;
-    /// q V².
-    type Own<L: Lane> = L;
-    type Sum<L: Lane> = ([L; D], L);
 
-    #[inline(always)]
+    /// q V².
     fn own<L: Lane>(&self, all: Particles) -> L {
         let volume = all.numbers::<L>(self.volume);
         all.numbers::<L>(self.pressure) * volume * volume
     }
-    #[inline(always)]
-    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
+    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut ([L; D], L)) {
         let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
         add_scaled(&mut sum.0, &pair.separation, (*own + other) * pair.factor);
     }
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &L,
@@ -200,21 +183,13 @@ impl<const D: usize> PairSum<D> for BoundDamping<'_, D> {
         let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
         sum.1 += (*own + other) * pair.value;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDamping<'_, D> {
-    #[inline(always)]
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         // The wall resists as the particle does.
         let (pressure, own) = (self.pressure[i], self.volume[i]);
         let against = |volume: f64| pressure * (own * own + volume * volume);
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             let itself = 2.0 * pressure * own * own * scale.own_value;
             sum += scale.slope * (of_values + itself);

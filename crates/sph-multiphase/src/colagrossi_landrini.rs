@@ -1,12 +1,12 @@
-//! The formulation of Colagrossi and Landrini.
+//! Formulations that integrate the density: Colagrossi and Landrini's, and that of Krimi et al. (2018).
 
 use rayon::prelude::*;
 use sph_contribution::Stages;
-use sph_core::{Access, Evolved, Stage, fields, plugin, stage};
+use sph_core::{Access, Evolved, Stage, fields, parameters, plugin, stage};
 use sph_neighbours::{Interaction, World};
 
-use crate::divergence::{Divergence, NeighbourVolume};
-use crate::gradient::{PressureGradient, SumOfPressures};
+use crate::divergence::{DensityWeighted, Divergence, NeighbourVolume};
+use crate::gradient::{BetweenParticles, PressureGradient, SumOfPressures};
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 
 /// dρ_a/dt = −ρ_a D_a{u}, V = m/ρ, with
@@ -43,7 +43,7 @@ impl<const D: usize> Formulation<D> for ColagrossiLandrini {
 }
 
 /// Density diffusion of a formulation that integrates the density itself.
-pub(crate) fn integrated_density() -> Diffused {
+fn integrated_density() -> Diffused {
     Diffused {
         evolved: Evolved {
             value: fields::DENSITY,
@@ -54,7 +54,7 @@ pub(crate) fn integrated_density() -> Diffused {
 }
 
 /// d ln ρ/dt = −D{u}.
-pub(crate) fn compressed_density() -> Compressed {
+fn compressed_density() -> Compressed {
     Compressed {
         value: fields::DENSITY,
         exponent: -1.0,
@@ -69,9 +69,70 @@ pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
     stage("volume", access, |world: &mut World<D>| {
         let mut volume = world.free.take(fields::VOLUME)?;
         let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
-        let all = volume.par_iter_mut().zip(mass).zip(density);
-        all.with_min_len(2048)
-            .for_each(|((v, m), rho)| *v = m / rho);
+        let all = volume
+            .par_iter_mut()
+            .zip(mass)
+            .zip(density)
+            .with_min_len(2048);
+        all.for_each(|((v, m), rho)| *v = m / rho);
         Ok(world.free.put(fields::VOLUME, volume)?)
     })
+}
+
+/// m_a a = −1/γ_a Σ_b θ_b (V_a² + V_b²) p̃_ab ∇w_ab with the pressure between two particles,
+/// p̃_ab = (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b), which is continuous where ∇p/ρ is; dρ/dt = −ρ D{u}.
+///
+/// The paper's D{u} weighs with V_b; it is not the adjoint of the gradient where densities differ.
+/// The adjoint, W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b), is `divergence = "consistent"`. The light
+/// side of a jump then counts the heavy neighbours almost twice, and the heavy side the light
+/// ones hardly: exact in energy, not for the compression of a single particle.
+///
+/// Limits: as printed, the power of the pressure forces is not that of the compression, and layers at rest
+/// gain energy: 5 % and 47 % of it within 0.3 s at density ratios 100 and 1000, 0.1 % with the adjoint. Beyond a ratio of
+/// 10 take `consistent`, or an artificial viscosity between the phases.
+///
+/// Source: Krimi et al. 2018, Eq. 26, 32–33 and 48–50.
+///
+/// ```toml
+/// [formulation.krimi]
+/// divergence = "literal"
+/// ```
+#[plugin(FormulationEntry [2, 3], "krimi", "integrated densities, pressure averaged between particles by density",
+    source: "Krimi et al. 2018, Eq. 26, 32–33", cfg(not(test)))]
+#[derive(Copy)]
+pub struct Krimi {
+    /// The divergence of the continuity equation.
+    #[parameter(default, source: "Krimi et al. 2018, Eq. 26")]
+    pub divergence: Continuity,
+}
+
+/// The divergence of the continuity equation.
+#[parameters]
+pub enum Continuity {
+    /// As printed: weighs with V_b.
+    #[default]
+    Literal,
+    /// The adjoint of the gradient.
+    Consistent,
+}
+
+impl<const D: usize> Formulation<D> for Krimi {
+    fn diffused(&self) -> Diffused {
+        integrated_density()
+    }
+    fn compressed(&self) -> Option<Compressed> {
+        Some(compressed_density())
+    }
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(volumes())]
+    }
+    fn pressure_term(&self) -> Box<dyn Interaction<D>> {
+        PressureGradient::boxed(BetweenParticles)
+    }
+    fn divergence(&self) -> Box<dyn Interaction<D>> {
+        match self.divergence {
+            Continuity::Literal => Divergence::boxed(NeighbourVolume),
+            Continuity::Consistent => Divergence::boxed(DensityWeighted),
+        }
+    }
 }

@@ -26,11 +26,8 @@ impl ContactAngle {
     /// The key that names none.
     pub(crate) fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| {
-            Err(Refusal::at_key(
-                "interface",
-                format!("contact_angle.{key}").trim_end_matches('.'),
-                why,
-            ))
+            let key = format!("contact_angle.{key}");
+            Err(Refusal::at_key("interface", key.trim_end_matches('.'), why))
         };
         setting.phase_number("interface", "contact_angle.phase", &self.phase)?;
         let walls = &setting.world.walls;
@@ -46,10 +43,8 @@ impl ContactAngle {
         for (name, angle) in &self.walls {
             if !walls.names.contains(name) {
                 let near = suggestion(name, walls.names.iter().map(String::as_str));
-                return refused(
-                    &format!("walls.{name}"),
-                    format!("there is no wall `{name}`{near}"),
-                );
+                let why = format!("there is no wall `{name}`{near}");
+                return refused(&format!("walls.{name}"), why);
             }
             if !(0.0..=std::f64::consts::PI).contains(angle) {
                 return refused(&format!("walls.{name}"), "expected 0 to 180 deg".into());
@@ -66,8 +61,7 @@ impl ContactAngle {
         let number = setting.phases.iter().position(|p| *p == self.phase);
         let wetting = number.unwrap_or(0) as u32;
         let of_wall = |name: &String| self.walls.get(name).unwrap_or(&self.angle).cos();
-        let names = setting.world.walls.names.iter();
-        let cosines: Vec<f64> = names.map(of_wall).collect();
+        let cosines: Vec<f64> = setting.world.walls.names.iter().map(of_wall).collect();
         let access = Access::none()
             .here((fields::POSITION, fields::PHASE, fields::RENORMALISATION))
             .writes(FILM);

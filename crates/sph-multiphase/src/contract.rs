@@ -1,10 +1,11 @@
-//! The traits of formulations and interface models.
+//! The traits of formulations and interface models, and the stage that applies the equations of state.
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
-use sph_core::{Evolved, Field, Scalar, Stage, StepError, Work, contract};
-use sph_neighbours::{Interaction, World};
-
-use crate::PressureStage;
+use sph_core::{
+    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Work, contract, fields,
+};
+use sph_neighbours::{Interaction, World, by_phase};
+use sph_rheology::state::BoundState;
 
 /// Density diffusion in the terms of a formulation.
 #[derive(Clone, Copy)]
@@ -36,9 +37,8 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn stages(&self) -> Stages<D>;
     /// The pressure term of the interaction sweep.
     fn pressure_term(&self) -> Box<dyn Interaction<D>>;
-    /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of
-    /// [`Rates`](sph_neighbours::Rates), 1/s. With Σ over particles and without walls,
-    /// Σ V p D{u} = −Σ V u·G{p}.
+    /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of [`Rates`](sph_neighbours::Rates),
+    /// 1/s. With Σ over particles and without walls, Σ V p D{u} = −Σ V u·G{p}.
     fn divergence(&self) -> Box<dyn Interaction<D>>;
     /// −D lnρ/Dt by motion, 1/s, as the densities follow it: D{u} by default.
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
@@ -104,13 +104,58 @@ pub fn offer_interface<const D: usize>(
     offer: &mut Offer<D>,
 ) -> Result<(), Refusal> {
     if setting.phases.len() <= 1 {
-        return Err(Refusal::at_key(
-            "interface",
-            "",
-            "the scene has one phase, and interfaces are between two: take this table out, or add a phase",
-        ));
+        let why = "the scene has one phase, and interfaces are between two: take this table out, or add a phase";
+        return Err(Refusal::at_key("interface", "", why));
     }
     offer.terms.push(term);
     offer.remedy = Some(format!("lower the coefficients of {}", offer.path));
     Ok(())
+}
+
+/// p = p(ρ) or p(ρ, γ̇), phase by phase; one virtual call per run of particles of the same phase.
+pub struct PressureStage {
+    /// The laws, in the order of the phase numbers.
+    pub laws: std::sync::Arc<[Box<dyn BoundState>]>,
+}
+
+impl Declares for PressureStage {
+    fn name(&self) -> String {
+        "equation of state".into()
+    }
+    fn access(&self) -> Access {
+        let mut access = Access::none()
+            .here(fields::DENSITY)
+            .writes(fields::PRESSURE);
+        if self.sheared() {
+            access = access.here(fields::STRAIN_RATE);
+        }
+        if self.laws.len() != 1 {
+            access = access.here(fields::PHASE);
+        }
+        access
+    }
+}
+
+impl PressureStage {
+    /// True if some law reads the strain rate.
+    fn sheared(&self) -> bool {
+        self.laws.iter().any(|law| law.needs_strain_rate())
+    }
+}
+
+impl<const D: usize> Stage<World<D>> for PressureStage {
+    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+        let mut pressure = world.free.take(fields::PRESSURE)?;
+        let density = world.free.get(fields::DENSITY)?;
+        let strain_rate = self.sheared().then(|| world.free.get(fields::STRAIN_RATE));
+        let strain_rate = strain_rate.transpose()?.unwrap_or_default();
+        let several = self.laws.len() != 1;
+        let phase = several.then(|| world.free.get(fields::PHASE)).transpose()?;
+        by_phase(phase, &mut pressure, |law, run, pressure| {
+            // Without the column all slices of it are empty.
+            let rate = strain_rate.get(run.clone()).unwrap_or_default();
+            self.laws[law].sheared_pressure(&density[run], rate, pressure);
+        });
+        Ok(world.free.put(fields::PRESSURE, pressure)?)
+    }
 }

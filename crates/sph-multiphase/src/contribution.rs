@@ -1,18 +1,20 @@
-//! Formulations and interfaces in a scene.
+//! The formulation of a scene, and scalars that the motion compresses.
 
+use rayon::prelude::*;
 use sph_contribution::{
-    Contribution, FromPlugins, LightBodyLimit, Offer, Plugins, Refusal, Setting, SoundLimit,
-    contributes,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, StepHook, StepMoment, StepPhase,
+    contributes, light_body_limit, sound_limit,
 };
+use sph_core::{Access, StepError, Vect, fields};
+use sph_neighbours::{Interaction, interactions};
 
 use crate::{
-    Acting, Dilatation, Formulation, FormulationEntry, InterfaceLimit, PressureEntry,
-    PressureScheme, PressureStage,
+    Acting, Compressed, Formulation, FormulationEntry, PressureEntry, PressureScheme,
+    PressureStage, interface_limit,
 };
 
 /// The formulation that a scene names, with its equations of state.
 struct Compressible<const D: usize> {
-    /// The formulation: density and its pressure.
     formulation: Box<dyn Formulation<D>>,
     /// The pressure scheme; without one the equations of state give the pressure.
     scheme: Option<Box<dyn PressureScheme<D>>>,
@@ -33,23 +35,6 @@ impl<const D: usize> FromPlugins<D> for Compressible<D> {
     }
 }
 
-impl<const D: usize> Compressible<D> {
-    /// Bounds of sound.
-    fn sound_limits(setting: &Setting<'_, D>, offer: &mut Offer<D>) {
-        offer.limiter(SoundLimit {
-            courant: setting.courant,
-            laws: setting.laws.clone(),
-        });
-        if let Some(limit) = InterfaceLimit::new(setting.laws) {
-            offer.limiter(limit);
-        }
-        if !setting.world.walls.bodies.is_empty() {
-            let laws = setting.laws.clone();
-            offer.limiter(LightBodyLimit { laws });
-        }
-    }
-}
-
 impl<const D: usize> Contribution<D> for Compressible<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         offer.stages = self.formulation.stages();
@@ -59,7 +44,13 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
         match &self.scheme {
             None => {
                 offer.stage(state);
-                Self::sound_limits(setting, offer);
+                offer.limiter(sound_limit(setting.courant, setting.laws.clone()));
+                if let Some(limit) = interface_limit(setting.laws) {
+                    offer.limiter(limit);
+                }
+                if !setting.world.walls.bodies.is_empty() {
+                    offer.limiter(light_body_limit(setting.laws));
+                }
             }
             Some(scheme) => {
                 offer.stages.push(scheme.stage(Acting {
@@ -76,5 +67,66 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
             offer.hook(Dilatation::new(compressed, self.formulation.divergence()));
         }
         Ok(())
+    }
+}
+
+/// The divergence of a formulation, at work while positions drift.
+pub struct Dilatation<const D: usize> {
+    compressed: Compressed,
+    term: [Box<dyn Interaction<D>>; 1],
+    /// The sweep sums accelerations, too; they are not read.
+    unused: Vec<Vect<D>>,
+    divergence: Vec<f64>,
+}
+
+impl<const D: usize> Dilatation<D> {
+    /// Of a scalar, with the divergence term of its formulation.
+    pub fn new(compressed: Compressed, term: Box<dyn Interaction<D>>) -> Self {
+        Dilatation {
+            compressed,
+            term: [term],
+            unused: Vec::new(),
+            divergence: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> StepHook<D> for Dilatation<D> {
+    fn name(&self) -> String {
+        "dilatation".into()
+    }
+    fn access(&self) -> Access {
+        let access = self.term[0].access().both(fields::POSITION);
+        access.here(fields::MASS).writes(self.compressed.value)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::MidDrift]
+    }
+    /// value ← value · exp(exponent · D{u} · dt) at the present positions and velocities, the volume at most 1/w(0).
+    ///
+    /// That is what a particle alone has where densities are sums, ρ = m w(0). Spray flies apart within the supports of its
+    /// particles, and would thin out to 2 % of the fluid; with 50 times their volume such particles throw the fluid about when
+    /// they fall back into it.
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
+        self.unused.resize(world.free.len(), Vect::zeros());
+        self.divergence.resize(world.free.len(), 0.0);
+        let (unused, rates) = (&mut self.unused, &mut self.divergence);
+        interactions(world, &self.term, unused, Some(rates))?;
+        let exponent = self.compressed.exponent;
+        let factor = exponent * dt;
+        let own_share = world.kernel.value_at_zero();
+        let mut value = world.free.take(self.compressed.value)?;
+        let mass = world.free.get(fields::MASS)?;
+        let changes = self.divergence.par_iter().zip(mass);
+        let all = value.par_iter_mut().zip(changes).with_min_len(2048);
+        all.for_each(|(v, (divergence, mass))| {
+            *v *= (factor * divergence).exp();
+            *v = match exponent < 0.0 {
+                true => v.max(mass * own_share),
+                false => v.min(1.0 / own_share),
+            };
+        });
+        Ok(world.free.put(self.compressed.value, value)?)
     }
 }

@@ -87,9 +87,10 @@ impl<const D: usize> Contribution<D> for Rayleigh {
     fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refuse = |key, text: String| Err(Refusal::at_key("damping", key, text));
         if !(self.rate >= 0.0 && self.rate.is_finite()) {
+            let rate = self.rate;
             return refuse(
                 "rate",
-                format!("{} where a number from 0 on was expected", self.rate),
+                format!("{rate} where a number from 0 on was expected"),
             );
         }
         if !self.velocity.is_empty() && self.velocity.len() != D {
@@ -105,10 +106,8 @@ impl<const D: usize> Contribution<D> for Rayleigh {
             }
             let finite = zone.from.is_finite() && zone.to.is_finite();
             if !finite || zone.from == zone.to {
-                return refuse(
-                    "zones",
-                    "`from` and `to` are to be two different places".into(),
-                );
+                let why = "`from` and `to` are to be two different places";
+                return refuse("zones", why.into());
             }
         }
         offer.hook(self.clone());

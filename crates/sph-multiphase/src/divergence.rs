@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
-    minus, pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, dot, minus, pair_sum,
+    pair_term,
 };
 
 /// The weight of a pair in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
@@ -63,8 +63,7 @@ impl DivergenceWeight for NeighbourVolume {
     }
 }
 
-/// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of
-/// [`Krimi`](crate::Krimi); derived here.
+/// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of [`Krimi`](crate::Krimi); derived here.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityWeighted;
 
@@ -106,23 +105,12 @@ pub struct BoundVelocityDivergence<'a, const D: usize, W: DivergenceWeight> {
     walls: &'a WallSet<D>,
 }
 
+#[pair_sum]
 impl<const D: usize, W: DivergenceWeight> BoundVelocityDivergence<'_, D, W> {
-    /// σ = d ln s/dt of a particle, 1/s.
-    #[inline(always)]
-    fn scale_rate(&self, i: usize) -> f64 {
-        let along = self.slope.map_or(0.0, |g| g[i].dot(&self.velocity[i]));
-        along + self.rate.map_or(0.0, |rate| rate[i])
-    }
-}
-
-impl<const D: usize, W: DivergenceWeight> PairSum<D> for BoundVelocityDivergence<'_, D, W> {
     const SCALED: bool = true;
-    /// Velocity, volume, density, d ln s/dt.
-    type Own<L: Lane> = ([L; D], L, L, L);
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    /// Velocity, volume, density, d ln s/dt.
+    fn own<L: Lane>(&self, all: Particles) -> ([L; D], L, L, L) {
         let (volume, density) = (all.numbers(self.volume), all.numbers(self.density));
         let scale = match self.slope {
             Some(_) => all.each(|i| [self.scale_rate(i)])[0],
@@ -131,7 +119,6 @@ impl<const D: usize, W: DivergenceWeight> PairSum<D> for BoundVelocityDivergence
         (all.vectors(self.velocity), volume, density, scale)
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
         let weight = self.weight.weight(own.1, own.2, volume, density);
@@ -139,7 +126,6 @@ impl<const D: usize, W: DivergenceWeight> PairSum<D> for BoundVelocityDivergence
         *sum -= weight * apart * pair.factor;
     }
 
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &Self::Own<L>,
@@ -151,10 +137,7 @@ impl<const D: usize, W: DivergenceWeight> PairSum<D> for BoundVelocityDivergence
         let weight = self.weight.weight(own.1, own.2, volume, density);
         *sum -= weight * pair.value * (own.3 + L::splat(self.scale_rate(j)));
     }
-}
 
-impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for BoundVelocityDivergence<'_, D, W> {
-    #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (velocity, volume, density) = (self.velocity[i], self.volume[i], self.density[i]);
@@ -174,5 +157,11 @@ impl<const D: usize, W: DivergenceWeight> BoundTerm<D> for BoundVelocityDivergen
             sum += weight * (velocity - wall).dot(&contact.gradient);
         }
         rates.scalar += sum * at.inverse_renormalisation;
+    }
+
+    /// σ = d ln s/dt of a particle, 1/s.
+    fn scale_rate(&self, i: usize) -> f64 {
+        let along = self.slope.map_or(0.0, |g| g[i].dot(&self.velocity[i]));
+        along + self.rate.map_or(0.0, |rate| rate[i])
     }
 }

@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet,
-    add_scaled, pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled,
+    pair_sum, pair_term,
 };
 
 /// Pressure, volume and density of one side of a pair.
@@ -15,6 +15,18 @@ pub struct PairState<L = f64> {
     pub volume: L,
     /// ρ, kg/m³.
     pub density: L,
+}
+
+impl<L> PairState<L> {
+    /// Of p, V and ρ.
+    #[inline(always)]
+    pub fn new(pressure: L, volume: L, density: L) -> Self {
+        PairState {
+            pressure,
+            volume,
+            density,
+        }
+    }
 }
 
 /// The weight P_ab of a pair in m_a a = −1/γ_a [Σ_b θ_b P_ab ∇w_ab − Σ_s P_as/V_s ∇γ_as].
@@ -99,37 +111,34 @@ pub struct BoundPressureGradient<'a, const D: usize, P: PairPressure> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D, P> {
+#[pair_sum]
+impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
     const SCALED: bool = true;
-    type Own<L: Lane> = PairState<L>;
-    /// Σ P ∇w over its separation, and B without the particle's own part.
-    type Sum<L: Lane> = ([L; D], L);
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> PairState<L> {
-        PairState {
-            pressure: all.numbers(self.pressure),
-            volume: all.numbers(self.volume),
-            density: match P::DENSITY {
-                true => all.numbers(self.density),
-                false => L::splat(0.0),
-            },
-        }
+        let density = match P::DENSITY {
+            true => all.numbers(self.density),
+            false => L::splat(0.0),
+        };
+        PairState::new(
+            all.numbers(self.pressure),
+            all.numbers(self.volume),
+            density,
+        )
     }
 
-    #[inline(always)]
+    /// Σ P ∇w over its separation, and B without the particle's own part.
     fn pair<L: Lane>(
         &self,
         own: &PairState<L>,
         j: usize,
         pair: &LanePair<D, L>,
-        sum: &mut Self::Sum<L>,
+        sum: &mut ([L; D], L),
     ) {
         let weight = self.weight.pair(*own, self.neighbour_state(j)) * pair.factor;
         add_scaled(&mut sum.0, &pair.separation, weight);
     }
 
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &PairState<L>,
@@ -139,52 +148,31 @@ impl<const D: usize, P: PairPressure> PairSum<D> for BoundPressureGradient<'_, D
     ) {
         sum.1 += self.weight.pair(*own, self.neighbour_state(j)) * pair.value;
     }
-}
 
-impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
-    #[inline(always)]
-    fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
-        let density = if P::DENSITY { self.density[j] } else { 0.0 };
-        PairState {
-            pressure: L::splat(self.pressure[j]),
-            volume: L::splat(self.volume[j]),
-            density: L::splat(density),
-        }
-    }
-}
-
-impl<const D: usize, P: PairPressure> BoundTerm<D> for BoundPressureGradient<'_, D, P> {
-    #[inline(always)]
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             sum += scale.slope * (of_values + self.weight.pair(own, own) * scale.own_value);
         }
         // A wall has no density of its own: it is that of the particle.
+        let points = &self.walls.points;
         for (v, pair) in at.wall.pairs() {
-            let there = PairState {
-                pressure: self.walls.points.pressure[v],
-                volume: self.walls.points.volume[v],
-                density: own.density,
-            };
-            let weight = self.walls.points.share[v] * self.weight.pair(own, there);
+            let there = PairState::new(points.pressure[v], points.volume[v], own.density);
+            let weight = points.share[v] * self.weight.pair(own, there);
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
-            let there = PairState {
-                pressure: contact.pressure,
-                volume: contact.volume,
-                density: own.density,
-            };
+            let there = PairState::new(contact.pressure, contact.volume, own.density);
             sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);
         }
         let inverse_mass = 1.0 / self.mass[at.particle];
         rates.acceleration -= sum * (inverse_mass * at.inverse_renormalisation);
+    }
+
+    fn neighbour_state<L: Lane>(&self, j: usize) -> PairState<L> {
+        let density = if P::DENSITY { self.density[j] } else { 0.0 };
+        let (pressure, volume) = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
+        PairState::new(pressure, volume, L::splat(density))
     }
 }

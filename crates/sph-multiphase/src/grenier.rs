@@ -4,10 +4,11 @@ use rayon::prelude::*;
 use sph_contribution::Stages;
 use sph_core::{Access, Evolved, Field, Scalar, Stage, StepError, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    Around, BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates,
-    Values, WallPoints, WallSet, World, add_scaled, dot, minus, pair_term, walk_into,
+    Around, Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, Values, WallPoints,
+    WallSet, World, add_scaled, dot, minus, pair_sum, pair_term, walk_into,
 };
 
+use crate::colagrossi_landrini::volumes;
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 
 /// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
@@ -56,11 +57,7 @@ impl<const D: usize> Formulation<D> for Grenier {
         false
     }
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut volume = world.free.take(fields::VOLUME)?;
-        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
-        let all = volume.iter_mut().zip(mass).zip(density);
-        all.for_each(|((v, m), rho)| *v = m / rho);
-        Ok(world.free.put(fields::VOLUME, volume)?)
+        volumes().run(world)
     }
 }
 
@@ -106,10 +103,8 @@ fn phase_densities<const D: usize>() -> impl Stage<World<D>> {
     })
 }
 
-/// The pressure term of [`Grenier`].
 struct FilledPressure;
 
-/// [`FilledPressure`] with its columns.
 #[pair_term(FilledPressure, "Grenier pressure gradient")]
 struct BoundPressure<'a, const D: usize> {
     #[both(fields::PRESSURE)]
@@ -124,10 +119,8 @@ struct BoundPressure<'a, const D: usize> {
     points: &'a WallPoints<D>,
 }
 
-/// The divergence of [`Grenier`].
 struct FilledDivergence;
 
-/// [`FilledDivergence`] with its columns.
 #[pair_term(FilledDivergence, "Grenier divergence")]
 struct BoundDivergence<'a, const D: usize> {
     #[both(fields::VOLUME)]
@@ -140,25 +133,18 @@ struct BoundDivergence<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
-impl<const D: usize> PairSum<D> for BoundPressure<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundPressure<'_, D> {
     /// p/d.
-    type Own<L: Lane> = L;
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.numbers::<L>(self.pressure) / all.numbers(self.kernel_sum)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let both = *own + L::splat(self.pressure[j] / self.kernel_sum[j]);
         let weight = L::splat(self.volume[j]) * both * pair.factor;
         add_scaled(sum, &pair.separation, weight);
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (own, inverse) = (self.pressure[i], 1.0 / self.kernel_sum[i]);
@@ -175,23 +161,16 @@ impl<const D: usize> BoundTerm<D> for BoundPressure<'_, D> {
     }
 }
 
-impl<const D: usize> PairSum<D> for BoundDivergence<'_, D> {
-    type Own<L: Lane> = [L; D];
-    type Sum<L: Lane> = L;
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundDivergence<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> [L; D] {
         all.vectors(self.velocity)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let apart = dot(&minus(own, &self.velocity[j]), &pair.separation);
         *sum -= L::splat(self.volume[j]) * apart * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
-    #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (velocity, points) = (self.velocity[i], &self.walls.points);
@@ -200,8 +179,7 @@ impl<const D: usize> BoundTerm<D> for BoundDivergence<'_, D> {
             sum -= points.share[v] * points.volume[v] * apart * pair.factor;
         }
         for contact in at.contacts {
-            let wall = self.walls.elements.velocity_at(&contact);
-            sum += (velocity - wall).dot(&contact.gradient);
+            sum += (velocity - self.walls.elements.velocity_at(&contact)).dot(&contact.gradient);
         }
         rates.scalar += sum * (1.0 / self.kernel_sum[i]) * at.inverse_renormalisation;
     }

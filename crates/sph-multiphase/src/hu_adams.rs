@@ -32,23 +32,18 @@ impl<const D: usize> Formulation<D> for HuAdams {
             per_density: |_, _, gamma| gamma,
         }
     }
-
     fn stages(&self) -> Stages<D> {
         vec![Box::new(density_sum())]
     }
-
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(SquaredVolumes)
     }
-
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(OwnVolume)
     }
-
     fn dilatation(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(SumVolume)
     }
-
     fn rebase(&self, world: &mut World<D>) -> Result<(), StepError> {
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
         kernel_sums(world, &mut constant)?;
@@ -73,15 +68,11 @@ fn density_sum<const D: usize>() -> impl Stage<World<D>> {
         kernel_sums(world, &mut density)?;
         let (mass, constant) = world.free.all((fields::MASS, fields::DENSITY_CONSTANT))?;
         let gamma = world.sum_renormalisation();
-        density
-            .par_iter_mut()
-            .zip(volume.par_iter_mut())
-            .enumerate()
-            .with_min_len(1024)
-            .for_each(|(i, (rho, v))| {
-                *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
-                *v = mass[i] / *rho;
-            });
+        let both = density.par_iter_mut().zip(&mut volume).enumerate();
+        both.with_min_len(1024).for_each(|(i, (rho, v))| {
+            *rho = (constant[i] + mass[i] * *rho) / gamma.map_or(1.0, |g| g[i]);
+            *v = mass[i] / *rho;
+        });
         world.free.put(fields::DENSITY, density)?;
         Ok(world.free.put(fields::VOLUME, volume)?)
     })

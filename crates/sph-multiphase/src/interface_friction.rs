@@ -1,18 +1,12 @@
-//! Dissipation between phases.
+//! Dissipation between phases, and light particles that are scattered in a heavy fluid.
 
-use std::sync::Arc;
-
-use sph_core::{StepError, StepLimit, Vect, fields, plugin};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
+use sph_core::{Access, Field, Scalar, Stage, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallPoints,
-    World, add_scaled, dot, minus, pair_term, unlike,
+    Around, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, WallPoints,
+    World, add_scaled, dot, lattice_sum, minus, pair_sum, pair_term, unlike, walk_into,
 };
 
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-use sph_neighbours::lattice_sum;
-use sph_rheology::state::Laws;
-
-use crate::dispersed_fraction::{DISPERSED_FRACTION, dispersed_fraction};
 use crate::{InterfaceEntry, offer_interface};
 
 /// m_a a = h Σ_b 2 m_a m_b/(ρ_a + ρ_b) v_ab (u_ab·r_ab)/r² ∇w_ab over the pairs with at least one particle that
@@ -50,58 +44,50 @@ pub struct InterfaceFriction {
 
 impl<const D: usize> Contribution<D> for InterfaceFriction {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        let damping = Damping::new(*self, setting.laws);
+        let phases = || setting.laws.iter().map(|law| law.reference());
+        let heaviest = phases().map(|r| r.density).fold(0.0, f64::max);
+        let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
+        let damping = Damping {
+            friction: *self,
+            sound: phases().map(|r| r.sound_speed).collect(),
+            wall_density: phases().map(|r| behind_wall(r.density)).collect(),
+        };
         let light = damping.wall_density.iter();
         let light = light.map(|density| *density > 0.0).collect();
         offer.stage(dispersed_fraction(light));
-        offer.limiter(DampingLimit(damping.clone()));
+        let fastest = damping.sound.iter().fold(0.0, |a: f64, c| a.max(*c));
+        offer.limiter(damping_limit(*self, fastest));
         offer_interface(Box::new(damping), setting, offer)
     }
 }
 
 /// The term of [`InterfaceFriction`] with the speeds of sound of the phases.
-#[derive(Clone, Debug)]
 struct Damping {
     friction: InterfaceFriction,
-    sound: Arc<[f64]>,
+    sound: Vec<f64>,
     /// Density that walls have for a phase, kg/m³: that of the heaviest, nothing for that itself.
-    wall_density: Arc<[f64]>,
-}
-
-impl Damping {
-    fn new(friction: InterfaceFriction, laws: &Laws) -> Self {
-        let density = laws.iter().map(|l| l.reference().density);
-        let heaviest = density.clone().fold(0.0, f64::max);
-        let behind_wall = |rho: f64| if rho < heaviest { heaviest } else { 0.0 };
-        Damping {
-            friction,
-            sound: laws.iter().map(|l| l.reference().sound_speed).collect(),
-            wall_density: density.map(behind_wall).collect(),
-        }
-    }
+    wall_density: Vec<f64>,
 }
 
 /// Δt ≤ 1/λ for the rate λ at which a light particle among heavy ones is stopped, if it closes with them at the speed of sound.
 /// With the present speed in its place the step would be 1.2 times as long, and single particles of air fast enough to fail.
-struct DampingLimit(Damping);
-
-impl<const D: usize> Limiter<D> for DampingLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let fastest = self.0.sound.iter().fold(0.0, |a: f64, c| a.max(*c));
-        let sum = lattice_sum(world, |pair| {
-            -pair.factor * pair.separation[0].powi(2) / pair.distance2
-        });
-        let cell = world.spacing.powi(D as i32);
-        let strength = self.0.friction.strength + self.0.friction.shocks;
-        let rate = 2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell;
-        Ok(StepLimit::new("interface friction", 1.0 / rate))
-    }
-    fn formula(&self) -> String {
-        "interface friction: dt <= 1/rate at which a light particle is stopped".into()
-    }
+fn damping_limit<const D: usize>(friction: InterfaceFriction, fastest: f64) -> impl Limiter<D> {
+    let formula = "interface friction: dt <= 1/rate at which a light particle is stopped";
+    bound(
+        "interface friction",
+        formula,
+        None,
+        move |world: &World<D>| {
+            let sum = lattice_sum(world, |pair| {
+                -pair.factor * pair.separation[0].powi(2) / pair.distance2
+            });
+            let cell = world.spacing.powi(D as i32);
+            let strength = friction.strength + friction.shocks;
+            Ok(1.0 / (2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell))
+        },
+    )
 }
 
-/// [`Damping`] with its columns.
 #[pair_term(Damping, "artificial viscosity between phases")]
 struct BoundInterfaceFriction<'a, const D: usize> {
     #[value(self.friction.strength)]
@@ -130,7 +116,6 @@ struct BoundInterfaceFriction<'a, const D: usize> {
     velocity: &'a [Vect<D>],
 }
 
-/// The own values of a particle.
 #[derive(Clone, Copy)]
 struct Own<const D: usize, L> {
     phase: L,
@@ -141,11 +126,8 @@ struct Own<const D: usize, L> {
     velocity: [L; D],
 }
 
-impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
-    type Own<L: Lane> = Own<D, L>;
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundInterfaceFriction<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [sound, wall_density] = all.each(|i| {
             let phase = self.phase[i] as usize;
@@ -161,7 +143,6 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
         }
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let zero = L::splat(0.0);
         let phase = self.phase[j];
@@ -187,11 +168,8 @@ impl<const D: usize> PairSum<D> for BoundInterfaceFriction<'_, D> {
         let weight = counts.where_positive(signal * rate * pair.factor, zero);
         add_scaled(sum, &pair.separation.map(|r| r * weight), mass);
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = self.own::<f64>(Particles::one(at.particle));
         let velocity = self.velocity[at.particle];
@@ -206,8 +184,7 @@ impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
             sum += pair.separation * (signal * rate * pair.factor) * mass;
         }
         for contact in at.contacts {
-            let s = contact.element as usize;
-            let normal = self.elements.normal[s];
+            let normal = self.elements.normal[contact.element as usize];
             let leaving = (velocity - self.elements.velocity_at(&contact)).dot(&normal);
             let density = own.wall_density / (own.density + own.wall_density);
             let distance = contact.distance.max(0.5 * self.length);
@@ -216,13 +193,54 @@ impl<const D: usize> BoundTerm<D> for BoundInterfaceFriction<'_, D> {
         }
         rates.acceleration += sum * (2.0 * self.length);
     }
-}
 
-impl<const D: usize> BoundInterfaceFriction<'_, D> {
     /// v, for a particle and a wall that part at a speed.
-    #[inline(always)]
     fn signal(&self, own: &Own<D, f64>, parting: f64) -> f64 {
         let steady = self.strength * own.dispersed_fraction * own.sound;
         steady + self.shocks * (-parting).clamp(0.0, own.sound)
     }
+}
+
+/// Isolation of a light particle from its phase: 1 alone, 0 where its phase has half of the support or more.
+///
+/// χ_a = max(0, 1 − 2φ_a), φ_a = Σ_{b ≠ a, of the phase of a} V_b w_ab / (1 − V_a w(0)). Walls are none of its
+/// phase. A flat interface half a spacing away leaves φ = 0.64 in two dimensions with h = 2 δr, and χ = 0.
+pub const DISPERSED_FRACTION: Field<Scalar> = Field::new(
+    "dispersed_fraction",
+    "1",
+    "1 for a light particle alone in another phase, 0 where its own has half of the support",
+);
+
+/// [`DISPERSED_FRACTION`] of all phases but the heaviest, which has 0; 0 as well where there is nothing to rub on.
+/// `light` marks phases that are lighter than another.
+pub(crate) fn dispersed_fraction<const D: usize>(light: Vec<bool>) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both((fields::POSITION, fields::PHASE, fields::VOLUME))
+        .writes(DISPERSED_FRACTION);
+    let name = "scattered light particles";
+    stage(name, access, move |world: &mut World<D>| {
+        let mut dispersed_fraction = world.free.take(DISPERSED_FRACTION)?;
+        dispersed_fraction.fill(0.0);
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
+        let own = world.kernel.value_at_zero();
+        let share = |around: &Around<'_, D>| {
+            let i = around.rows.particle;
+            let all = std::iter::zip(around.rows.free.index, around.free);
+            let like = all.filter(|(j, _)| **j as usize != i && phase[**j as usize] == phase[i]);
+            let like: f64 = like.map(|(j, w)| volume[*j as usize] * w).sum();
+            let others = (1.0 - volume[i] * own).max(f64::MIN_POSITIVE);
+            (1.0 - 2.0 * like / others).max(0.0)
+        };
+        // Inside a light phase it is not read: friction is with another phase or with a wall.
+        let (lists, walls) = (world.lists.nearest(), &world.walls);
+        let beside = |i: usize| {
+            let mut near = lists.candidates(i).iter();
+            near.any(|j| phase[*j as usize] != phase[i])
+                || !walls.contacts.of_particle(i).is_empty()
+                || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
+        };
+        let wanted = |i: usize| light[phase[i] as usize] && beside(i);
+        walk_into(world, Values::Both, wanted, &mut dispersed_fraction, share)?;
+        Ok(world.free.put(DISPERSED_FRACTION, dispersed_fraction)?)
+    })
 }

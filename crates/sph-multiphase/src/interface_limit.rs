@@ -2,8 +2,7 @@
 
 use std::sync::OnceLock;
 
-use sph_contribution::Limiter;
-use sph_core::{StepError, StepLimit};
+use sph_contribution::{Limiter, bound};
 use sph_neighbours::{World, lattice_sum};
 use sph_rheology::state::{BoundState, Reference};
 
@@ -16,40 +15,24 @@ use sph_rheology::state::{BoundState, Reference};
 /// are denser than lattices, and friction takes a share of the 2. Where the largest is in one phase
 /// alone, the limit of the speed of sound has it; where ρc² is the same in all phases this never binds. Ours; with a
 /// step twice as long, air around drops of water in a dam break swings with 100 m/s and more.
-#[derive(Debug)]
-pub struct InterfaceLimit {
-    /// c, m/s.
-    sound: f64,
-    /// S, 1/m: lattice and kernel stay.
-    wave: OnceLock<f64>,
-}
-
-impl InterfaceLimit {
-    /// With the equations of state of the phases; none if no mixture of two of them is faster than both.
-    pub fn new(laws: &[Box<dyn BoundState>]) -> Option<Self> {
-        let each = || laws.iter().map(|law| law.reference());
-        let pairs = each().flat_map(|a| each().map(move |b| mixed_sound(a, b)));
-        let squared = pairs.fold(0.0, f64::max);
-        (squared > 0.0).then(|| InterfaceLimit {
-            sound: squared.sqrt(),
-            wave: OnceLock::new(),
-        })
-    }
-}
-
-impl<const D: usize> Limiter<D> for InterfaceLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let wave = self.wave.get_or_init(|| shortest_wave(world));
-        Ok(StepLimit::new("interface", 1.0 / (wave * self.sound)))
-    }
-    fn remedy(&self) -> Option<String> {
-        let away = "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and takes this bound \
-                    away";
-        Some(away.into())
-    }
-    fn formula(&self) -> String {
-        "interface: dt <= 1 / (S c), c the fastest sound in a mixture of two phases".into()
-    }
+///
+/// None if no mixture of two phases is faster than both.
+pub fn interface_limit<const D: usize>(
+    laws: &[Box<dyn BoundState>],
+) -> Option<impl Limiter<D> + use<D>> {
+    let each = || laws.iter().map(|law| law.reference());
+    let pairs = each().flat_map(|a| each().map(move |b| mixed_sound(a, b)));
+    let squared = pairs.fold(0.0, f64::max);
+    let formula = "interface: dt <= 1 / (S c), c the fastest sound in a mixture of two phases";
+    let remedy = "`numerics.reference_pressure = \"equal\"` makes all phases equally compressible and takes this bound \
+                  away";
+    // Lattice and kernel stay.
+    let wave = OnceLock::new();
+    let dt = move |world: &World<D>| {
+        let wave = wave.get_or_init(|| shortest_wave(world));
+        Ok(1.0 / (wave * squared.sqrt()))
+    };
+    (squared > 0.0).then(|| bound("interface", formula, Some(remedy), dt))
 }
 
 /// The largest (Σφρc²)(Σφ/ρ) between the ends of φ, m²/s²; nothing if it is at an end.

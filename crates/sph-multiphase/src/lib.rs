@@ -26,42 +26,35 @@ mod contract;
 mod contribution;
 pub mod damping;
 pub mod diffusion;
-mod dilatation;
-mod dispersed_fraction;
 mod divergence;
 mod gradient;
 mod grenier;
 mod hu_adams;
 mod interface_friction;
 mod interface_limit;
-mod krimi;
 pub mod linear;
 pub mod pressure;
-mod pressure_stage;
 mod repulsion;
 mod surface;
 mod surface_tension;
 pub mod viscosity;
 
 pub use acoustic_damper::AcousticDamper;
-pub use colagrossi_landrini::ColagrossiLandrini;
+pub use colagrossi_landrini::{ColagrossiLandrini, Continuity, Krimi};
 pub use contact_angle::{ContactAngle, FILM};
 pub use contract::{
     Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, PressureEntry,
-    PressureScheme, offer_interface,
+    PressureScheme, PressureStage, offer_interface,
 };
-pub use dilatation::Dilatation;
-pub use dispersed_fraction::DISPERSED_FRACTION;
+pub use contribution::Dilatation;
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, NeighbourVolume, OwnVolume};
 pub use gradient::{
     BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,
 };
 pub use grenier::Grenier;
 pub use hu_adams::HuAdams;
-pub use interface_friction::InterfaceFriction;
-pub use interface_limit::InterfaceLimit;
-pub use krimi::{Continuity, Krimi};
-pub use pressure_stage::PressureStage;
+pub use interface_friction::{DISPERSED_FRACTION, InterfaceFriction};
+pub use interface_limit::interface_limit;
 pub use repulsion::{GrenierInterface, MicroMixing};
 pub use surface::{ConeTest, FREE_SURFACE, MOMENT_EXCESS, Place, Renormalised, SurfaceEntry};
 pub use surface_tension::{COLOUR_GRADIENT, SurfaceStress, SurfaceTension};

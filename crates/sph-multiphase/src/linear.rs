@@ -7,19 +7,6 @@
 //! * [`TimeScheme`]: how friction is taken over a step, [`BackwardEuler`] or [`CrankNicolson`].
 //!
 //! The unknowns are of any kind: a viscous velocity, a pressure, a temperature.
-//!
-//! ```
-//! use sph_core::Vect;
-//! use sph_multiphase::linear::{ConjugateGradient, Entries, LinearSolver, Matrix, Pattern};
-//!
-//! // Three particles in a row, each coupled to the next: diagonal 2, coupling −1.
-//! let pattern = Pattern::from_rows(&[vec![1], vec![0, 2], vec![1]]);
-//! let matrix = Matrix::<2>::new(pattern, Entries::scalar(vec![2.0; 3], vec![-1.0; 4]));
-//! let right = vec![Vect::<2>::new(1.0, 0.0); 3];
-//! let mut x = vec![Vect::<2>::zeros(); 3];
-//! let report = ConjugateGradient::default().solve(&matrix, &right, &mut x).unwrap();
-//! assert!((x[1][0] - 2.0).abs() < 1e-7 && report.iterations <= 3);
-//! ```
 
 mod assemble;
 mod automatic;
@@ -27,39 +14,31 @@ mod bicgstab;
 mod cholesky;
 mod conjugate_gradient;
 mod entry;
-mod error;
 mod halved;
 mod incomplete;
 mod jacobi;
-mod krylov;
-mod low_rank;
 mod matrix;
-mod memory;
 mod operator;
 mod particle_matrix;
 mod precondition;
 mod scheme;
 mod solver;
-mod vector;
 
 pub use assemble::{Assembly, Rows};
 pub use automatic::Automatic;
 pub use bicgstab::Bicgstab;
 pub use cholesky::Cholesky;
-pub use conjugate_gradient::ConjugateGradient;
+pub use conjugate_gradient::{ConjugateGradient, Memories};
 pub use entry::{Block, Entry};
-pub use error::SolveError;
 pub use halved::{Halved, Halves};
 pub use jacobi::Jacobi;
-pub(crate) use krylov::Tolerance;
-pub use low_rank::LowRank;
 pub(crate) use matrix::coupling_ratio;
 pub use matrix::{Diagonal, Entries, Matrix, Pattern, Values};
-pub use memory::Memories;
-pub use operator::Operator;
+pub use operator::{LowRank, Operator, SolveError};
 pub use particle_matrix::ParticleMatrix;
 pub use precondition::Preconditioner;
 pub use scheme::{
     BackwardEuler, CrankNicolson, ImplicitViscosityEntry, OuterIteration, TimeScheme,
 };
-pub use solver::{LinearSolver, LinearSolverEntry, Report};
+pub(crate) use solver::Tolerance;
+pub use solver::{LinearSolver, LinearSolverEntry, LinearSystem, Report, SolveResult};

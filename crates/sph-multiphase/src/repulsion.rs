@@ -3,8 +3,7 @@
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, add_scaled, pair_term,
-    unlike,
+    Lane, LanePair, Neighbourhood, Particles, Rates, add_scaled, pair_sum, pair_term, unlike,
 };
 
 use crate::{InterfaceEntry, offer_interface};
@@ -31,18 +30,15 @@ pub struct GrenierInterface {
 
 impl Repulsion for GrenierInterface {
     const NAME: &'static str = "Grenier interface force";
-    fn strength(self) -> f64 {
-        self.strength
-    }
     #[inline(always)]
-    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
+    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L {
         volume * there_volume * (pressure.abs() + there.abs())
     }
 }
 
 impl<const D: usize> Contribution<D> for GrenierInterface {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        offer_interface(Box::new(Repelling(*self)), setting, offer)
+        offer_interface(Box::new(Repelling(*self, self.strength)), setting, offer)
     }
 }
 
@@ -69,39 +65,33 @@ pub struct MicroMixing {
 
 impl Repulsion for MicroMixing {
     const NAME: &'static str = "micro-mixing force";
-    fn strength(self) -> f64 {
-        self.strength
-    }
     #[inline(always)]
-    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L {
+    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L {
         pressure.abs() * volume * volume + there.abs() * there_volume * there_volume
     }
 }
 
 impl<const D: usize> Contribution<D> for MicroMixing {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
-        offer_interface(Box::new(Repelling(*self)), setting, offer)
+        offer_interface(Box::new(Repelling(*self, self.strength)), setting, offer)
     }
 }
 
 /// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
 trait Repulsion: Copy + Send + Sync + 'static {
-    /// Name in plans.
     const NAME: &'static str;
-    /// ε.
-    fn strength(self) -> f64;
     /// P_ab = P_ba ≥ 0 from pressures and volumes here and there, Pa m^2d.
-    fn weight<L: Lane>(pressure: L, volume: L, there: L, there_volume: L) -> L;
+    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L;
 }
 
-/// The term of a weight.
-struct Repelling<R>(R);
+struct Repelling<R>(R, f64);
 
-/// [`Repelling`] with its columns.
 #[pair_term(Repelling<R>, R::NAME)]
 struct BoundRepulsion<'a, R: Repulsion> {
     #[value(self.0)]
     weight: R,
+    #[value(self.1)]
+    strength: f64,
     #[both(fields::PRESSURE)]
     pressure: &'a [f64],
     #[both(fields::VOLUME)]
@@ -112,42 +102,30 @@ struct BoundRepulsion<'a, R: Repulsion> {
     phase: &'a [u32],
 }
 
-impl<const D: usize, R: Repulsion> PairSum<D> for BoundRepulsion<'_, R> {
+#[pair_sum]
+impl<const D: usize, R: Repulsion> BoundRepulsion<'_, R> {
     /// Pressure, volume, phase.
-    type Own<L: Lane> = [L; 3];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [L; 3] {
         let (pressure, volume) = (all.numbers(self.pressure), all.numbers(self.volume));
         [pressure, volume, all.phases(Some(self.phase))]
     }
 
-    #[inline(always)]
-    fn pair<L: Lane>(
-        &self,
-        [pressure, volume, phase]: &[L; 3],
-        j: usize,
-        pair: &LanePair<D, L>,
-        sum: &mut [L; D],
-    ) {
-        let unlike = unlike(*phase, self.phase[j]);
+    fn pair<L: Lane>(&self, own: &[L; 3], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let [pressure, volume, phase] = *own;
+        let unlike = unlike(phase, self.phase[j]);
         let zero = L::splat(0.0);
         // Most pairs are of one phase.
         if !zero.any_less(unlike) {
             return;
         }
         let there = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
-        let weight = R::weight(*pressure, *volume, there.0, there.1) * pair.factor;
+        let weight = self.weight.weight(pressure, volume, there.0, there.1) * pair.factor;
         add_scaled(sum, &pair.separation, unlike.where_positive(weight, zero));
     }
-}
 
-impl<const D: usize, R: Repulsion> BoundTerm<D> for BoundRepulsion<'_, R> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let inverse_mass = 1.0 / self.mass[at.particle];
-        rates.acceleration -= Vect::from(sum) * (self.weight.strength() * inverse_mass);
+        rates.acceleration -= Vect::from(sum) * (self.strength * inverse_mass);
     }
 }

@@ -1,7 +1,6 @@
 //! Free surfaces: where they are, and densities without memory of them.
 
 mod cone;
-mod half_space;
 mod moments;
 mod relaxed;
 mod renormalised;

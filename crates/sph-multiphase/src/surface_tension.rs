@@ -1,17 +1,14 @@
 //! Surface tension as a continuous surface stress.
 
-use sph_core::{Access, Stage, StepError, StepLimit, Vect, fields, parameters, plugin, stage};
+use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
+use sph_core::{Access, Stage, Vect, fields, parameters, plugin, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, dot, pair_term,
-    splat,
+    Around, Lane, LanePair, Neighbourhood, Particles, Rates, Values, World, dot, pair_sum,
+    pair_term, splat, walk_into,
 };
 
 use crate::contact_angle::{ContactAngle, FILM};
 use crate::{InterfaceEntry, offer_interface};
-
-use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting};
-
-use sph_neighbours::{Around, Values, walk_into};
 
 /// m_a a = Σ_b (V_a² Π_a + V_b² Π_b)·∇w_ab with the surface stress
 /// Π = σ/|∇c| (|∇c|² ι I − ∇c ∇c) and the gradient of the colour of all other phases,
@@ -74,7 +71,7 @@ impl<const D: usize> Contribution<D> for SurfaceTension {
             offer.stage(angle.films(setting));
         }
         if self.tension > 0.0 {
-            offer.limiter(CapillaryLimit(self.tension));
+            offer.limiter(capillary_limit(self.tension));
         }
         Ok(())
     }
@@ -85,7 +82,6 @@ sph_core::fields! {
     pub COLOUR_GRADIENT: Vector = "colour_gradient", "1/m", "gradient of the share of all other phases";
 }
 
-/// [`COLOUR_GRADIENT`].
 fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::PHASE, fields::VOLUME))
@@ -128,27 +124,6 @@ pub struct BoundSurfaceTension<'a, const D: usize> {
         SurfaceStress::TraceFree => 1.0 / D as f64,
     })]
     isotropic: f64,
-}
-
-impl<const D: usize> BoundSurfaceTension<'_, D> {
-    /// That of the interface at a particle.
-    #[inline(always)]
-    fn stress(&self, i: usize) -> Stress<D, f64> {
-        let volume = self.volume[i];
-        Stress::new(
-            self.colour[i],
-            self.tension * volume * volume,
-            self.isotropic,
-        )
-    }
-
-    /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.
-    #[inline(always)]
-    fn film(&self, i: usize) -> Stress<D, f64> {
-        let volume = self.volume[i];
-        let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
-        Stress::new(film, -self.tension * volume * volume, 1.0)
-    }
 }
 
 /// σV² (|∇c| ι I − ∇c∇c/|∇c|).
@@ -216,52 +191,48 @@ impl<const D: usize, L: Lane> Stress<D, L> {
     }
 }
 
-impl<const D: usize> PairSum<D> for BoundSurfaceTension<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundSurfaceTension<'_, D> {
     /// Stresses of the interface and of the film.
-    type Own<L: Lane> = [Stress<D, L>; 2];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    fn own<L: Lane>(&self, all: Particles) -> [Stress<D, L>; 2] {
         let stress = Stress::each(all, |i| self.stress(i));
         [stress, Stress::each(all, |i| self.film(i))]
     }
 
-    #[inline(always)]
-    fn pair<L: Lane>(
-        &self,
-        [stress, film]: &Self::Own<L>,
-        j: usize,
-        pair: &LanePair<D, L>,
-        sum: &mut [L; D],
-    ) {
-        stress.add_to(sum, &self.stress(j).splat(), pair);
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        own[0].add_to(sum, &self.stress(j).splat(), pair);
         if !self.film.is_empty() {
-            film.add_to(sum, &self.film(j).splat(), pair);
+            own[1].add_to(sum, &self.film(j).splat(), pair);
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundSurfaceTension<'_, D> {
     /// Without 1/γ: the gain of one particle is the loss of another.
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.acceleration += Vect::from(sum) * (1.0 / self.mass[at.particle]);
+    }
+
+    /// That of the interface at a particle.
+    fn stress(&self, i: usize) -> Stress<D, f64> {
+        let scale = self.tension * self.volume[i] * self.volume[i];
+        Stress::new(self.colour[i], scale, self.isotropic)
+    }
+
+    /// That of the film at a particle, which is compressed; nothing where the scene has no contact angle.
+    fn film(&self, i: usize) -> Stress<D, f64> {
+        let volume = self.volume[i];
+        let film = self.film.get(i).copied().unwrap_or_else(Vect::zeros);
+        Stress::new(film, -self.tension * volume * volume, 1.0)
     }
 }
 
 /// Δt ≤ ¼ √(ρ h³/2πσ).
-struct CapillaryLimit(f64);
-
-impl<const D: usize> Limiter<D> for CapillaryLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+fn capillary_limit<const D: usize>(tension: f64) -> impl Limiter<D> {
+    let formula = "surface tension: dt <= 0.25 sqrt(ρ h³ / 2πσ)";
+    bound("surface tension", formula, None, move |world: &World<D>| {
         let density = world.free.get(fields::DENSITY)?;
         let least = density.iter().copied().fold(f64::INFINITY, f64::min);
         let h = world.kernel.smoothing_length();
-        let shortest = least * h.powi(3) / (std::f64::consts::TAU * self.0);
-        Ok(StepLimit::new("surface tension", 0.25 * shortest.sqrt()))
-    }
-    fn formula(&self) -> String {
-        "surface tension: dt <= 0.25 sqrt(ρ h³ / 2πσ)".into()
-    }
+        let shortest = least * h.powi(3) / (std::f64::consts::TAU * tension);
+        Ok(0.25 * shortest.sqrt())
+    })
 }

@@ -7,30 +7,26 @@
 
 mod body_response;
 mod contract;
-mod coupling;
 mod friction;
 mod friction_operator;
 mod friction_system;
 mod implicit;
 mod interface_distance;
-mod krimi_viscosity;
 mod operators;
-mod solve_arrest;
 mod solves;
-mod start;
 mod viscosity_source;
-mod viscous_limit;
 
-pub use contract::{EddyViscosityEntry, Viscosity, ViscousOperator, ViscousOperatorEntry};
-pub use coupling::{BoundCoupling, Coupling, CouplingRow, WithCoupling};
+pub use contract::{
+    BoundCoupling, Coupling, CouplingRow, EddyViscosityEntry, Viscosity, ViscousLimit,
+    ViscousOperator, ViscousOperatorEntry, WithCoupling,
+};
 pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
 pub use friction_operator::FrictionOperator;
 pub use friction_system::FrictionSystem;
 pub use implicit::{ImplicitViscosity, PicardUpdates};
 pub use interface_distance::INTERFACE_DISTANCE;
-pub use krimi_viscosity::{KrimiViscosity, Strength};
-pub use operators::{EspanolRevenga, HuAdamsViscosity, MonaghanGingold, Morris};
-pub use solve_arrest::SolveArrest;
-pub use solves::{OuterSolves, Solves};
+pub use operators::{
+    EspanolRevenga, HuAdamsViscosity, KrimiViscosity, MonaghanGingold, Morris, Strength,
+};
+pub use solves::{OuterSolves, SolveArrest, Solves};
 pub use viscosity_source::{BoundViscosity, Layers, OwnViscosity, ViscositySource, Within};
-pub use viscous_limit::ViscousLimit;

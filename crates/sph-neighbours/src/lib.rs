@@ -97,7 +97,7 @@ pub use scaling::{Scaling, WallScale};
 pub use shares::{ClassRate, TermShare, class_rates, shares_at};
 pub use slopes::{Slope, Slopes};
 pub use space::{Space, inner};
-pub use sph_derive::pair_term;
+pub use sph_derive::{pair_sum, pair_term};
 pub use sph_kernels::lanes::{Body, InLanes, Lane, MOST, add_scaled, dot, scaled};
 pub use sweep::{Sums, accelerations_of, all_sums, declared, interactions, interactions_with};
 pub use term::{BoundTerm, ByPairs, Interaction, PairTerm, RowTerm, TermEntry, Terms, WithTerm};

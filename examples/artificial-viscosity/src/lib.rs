@@ -2,8 +2,8 @@
 
 use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, TermEntry, add_scaled,
-    dot, minus, pair_term,
+    Lane, LanePair, Neighbourhood, Particles, Rates, TermEntry, add_scaled, dot, minus, pair_sum,
+    pair_term,
 };
 
 /// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100); nothing at walls.
@@ -30,16 +30,11 @@ pub struct Bound<'a, const D: usize> {
     softening: f64,
 }
 
-impl<const D: usize> PairSum<D> for Bound<'_, D> {
-    /// Velocity and density.
-    type Own<L: Lane> = ([L; D], L);
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+#[pair_sum]
+impl<const D: usize> Bound<'_, D> {
+    fn own<L: Lane>(&self, all: Particles) -> ([L; D], L) {
         (all.vectors(self.velocity), all.numbers(self.density))
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let parting = dot(&minus(&own.0, &self.velocity[j]), &pair.separation);
         let approach = (-parting).where_positive(parting, L::splat(0.0));
@@ -48,10 +43,6 @@ impl<const D: usize> PairSum<D> for Bound<'_, D> {
         let weight = mass / (own.1 + L::splat(self.density[j]));
         add_scaled(sum, &pair.separation, weight * rate * pair.factor);
     }
-}
-
-impl<const D: usize> BoundTerm<D> for Bound<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], _: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.acceleration += Vect::from(sum);
     }

@@ -8,21 +8,17 @@ use crate::lanes::{Lane, Lanes};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Width {
     /// 2: available on every processor.
-    Two,
+    Two = 2,
     /// 4: AVX2.
-    Four,
+    Four = 4,
     /// 8: AVX-512.
-    Eight,
+    Eight = 8,
 }
 
 impl Width {
     /// As a number.
     pub fn lanes(self) -> usize {
-        match self {
-            Width::Two => 2,
-            Width::Four => 4,
-            Width::Eight => 8,
-        }
+        self as usize
     }
 }
 
@@ -32,8 +28,7 @@ static ALLOWED: AtomicU8 = AtomicU8::new(0);
 /// Limits the lanes from here on; `None` allows all of the processor. For tests: results do not depend on it, to the
 /// bit.
 pub fn force_width(most: Option<Width>) {
-    let most = most.map_or(0, |w| w.lanes() as u8);
-    ALLOWED.store(most, Ordering::Relaxed);
+    ALLOWED.store(most.map_or(0, |w| w.lanes() as u8), Ordering::Relaxed);
 }
 
 /// The width that [`dispatch`] takes.

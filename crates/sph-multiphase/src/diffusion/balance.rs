@@ -1,9 +1,9 @@
-//! The acceleration that a pressure is in balance with.
+//! The acceleration that a pressure is in balance with, and gradients that are exact for linear fields.
 
 use rayon::prelude::*;
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, StepError, Vect, Vector, fields};
-use sph_neighbours::World;
+use sph_neighbours::{Row, World};
 
 /// s, ∇p/ρ.
 pub const PRESSURE_SLOPE: Field<Vector> = Field::new(
@@ -57,26 +57,7 @@ impl MeanAcceleration {
             Accelerated::Slope => PRESSURE_SLOPE,
         }
     }
-}
 
-impl<const D: usize> StepHook<D> for MeanAcceleration {
-    fn name(&self) -> String {
-        "mean acceleration".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(self.source())
-            .remembers(fields::MEAN_ACCELERATION)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::BeforeDrift]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        self.follow(moment.world, moment.dt)
-    }
-}
-
-impl MeanAcceleration {
     /// A of all particles follows over `dt` seconds.
     ///
     /// # Errors
@@ -98,4 +79,72 @@ impl MeanAcceleration {
         }
         Ok(world.free.put(fields::MEAN_ACCELERATION, mean)?)
     }
+}
+
+impl<const D: usize> StepHook<D> for MeanAcceleration {
+    fn name(&self) -> String {
+        "mean acceleration".into()
+    }
+    fn access(&self) -> Access {
+        Access::none()
+            .here(self.source())
+            .remembers(fields::MEAN_ACCELERATION)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::BeforeDrift]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        self.follow(moment.world, moment.dt)
+    }
+}
+
+/// Least eigenvalue, as a share of 1, of the matrix that a gradient is renormalised with.
+const LEAST: f64 = 0.05;
+
+/// [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (A_b − A_a) ∇w_ab over a row of neighbours; nothing where they span no
+/// volume. Unit: that of A over metres.
+///
+/// `rise` gives A_b − A_a, or nothing for a neighbour that does not count.
+pub fn linear_exact<const D: usize>(
+    row: &Row<'_, D>,
+    volume: &[f64],
+    rise: impl Fn(usize) -> Option<f64>,
+) -> Vect<D> {
+    // Columns of the matrix, and its right side.
+    let mut matrix = [Vect::<D>::zeros(); D];
+    let mut sum = Vect::<D>::zeros();
+    for (k, &j) in row.index.iter().enumerate() {
+        let j = j as usize;
+        if let Some(rise) = rise(j) {
+            let slope = row.separation[k] * (volume[j] * row.factor[k]);
+            sum += slope * rise;
+            for (c, column) in matrix.iter_mut().enumerate() {
+                *column -= slope * row.separation[k][c];
+            }
+        }
+    }
+    solve(matrix, sum).unwrap_or_else(Vect::zeros)
+}
+
+/// The solution of a symmetric positive system by Cholesky's elimination, if every pivot is large enough.
+fn solve<const D: usize>(mut matrix: [Vect<D>; D], mut right: Vect<D>) -> Option<Vect<D>> {
+    for k in 0..D {
+        if matrix[k][k] < LEAST {
+            return None;
+        }
+        for row in k + 1..D {
+            let factor = matrix[k][row] / matrix[k][k];
+            for column in matrix.iter_mut().skip(k) {
+                column[row] -= factor * column[k];
+            }
+            right[row] -= factor * right[k];
+        }
+    }
+    for k in (0..D).rev() {
+        for c in k + 1..D {
+            right[k] -= matrix[c][k] * right[c];
+        }
+        right[k] /= matrix[k][k];
+    }
+    Some(right)
 }

@@ -2,13 +2,13 @@
 
 use sph_core::{Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, dot, pair_term, splat,
+    Lane, LanePair, Neighbourhood, Particles, Rates, dot, pair_sum, pair_term, splat,
 };
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_rheology::state::Laws;
 
-use crate::diffusion::diffusion_limit::fastest;
+use crate::diffusion::contract::fastest;
 use crate::diffusion::{Accelerated, SmootherEntry, Smoothing};
 
 /// dρ_a/dt += δ (h/c) 2ρ_a/γ_a Σ_b V_b {[2(p_a − p_b) + (ρ_aA_a + ρ_bA_b)·r_ab]/(ρ_a + ρ_b) − g·r_ab} F_ab, free neighbours
@@ -98,14 +98,12 @@ pub struct BoundPressureDiffusion<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> PairSum<D> for BoundPressureDiffusion<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundPressureDiffusion<'_, D> {
     const SCALED: bool = true;
-    /// Pressure, density, ρA.
-    type Own<L: Lane> = (L, L, [L; D]);
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    /// Pressure, density, ρA.
+    fn own<L: Lane>(&self, all: Particles) -> (L, L, [L; D]) {
         let inertia = match self.acceleration {
             Some(a) => all.each(|i| (a[i] * self.density[i]).into()),
             None => [L::splat(0.0); D],
@@ -114,7 +112,6 @@ impl<const D: usize> PairSum<D> for BoundPressureDiffusion<'_, D> {
         (all.numbers(self.pressure), density, inertia)
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let (pressure, density) = (L::splat(self.pressure[j]), L::splat(self.density[j]));
         let gravity = splat::<D, L>(&self.gravity);
@@ -130,12 +127,8 @@ impl<const D: usize> PairSum<D> for BoundPressureDiffusion<'_, D> {
         }
         *sum += L::splat(self.volume[j]) * bracket * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundPressureDiffusion<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let density = self.density[at.particle];
-        rates.scalar += self.weight * density * sum * at.inverse_renormalisation;
+        rates.scalar += self.weight * self.density[at.particle] * sum * at.inverse_renormalisation;
     }
 }

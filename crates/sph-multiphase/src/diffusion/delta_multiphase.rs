@@ -2,7 +2,7 @@
 
 use sph_core::{Vect, fields, parameters, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot, pair_term,
+    Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot, pair_sum, pair_term,
     splat,
 };
 
@@ -148,13 +148,6 @@ pub struct BoundDelta<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> BoundDelta<'_, D> {
-    /// ∇p of the undiffused pressure, Pa/m.
-    fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
-        (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
-    }
-}
-
 /// The own values of a particle.
 #[derive(Clone, Copy)]
 pub struct Own<const D: usize, L> {
@@ -165,12 +158,10 @@ pub struct Own<const D: usize, L> {
     compressibility: L,
 }
 
-impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundDelta<'_, D> {
     const SCALED: bool = true;
-    type Own<L: Lane> = Own<D, L>;
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [compression, compressibility] = all.each(|i| {
             let phase = self.phase.map_or(0, |p| p[i] as usize);
@@ -184,7 +175,6 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
         }
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let phase = self.phase.map_or(0, |p| p[j] as usize);
         let compression = L::splat(self.density[j] / self.term.density[phase]);
@@ -195,10 +185,7 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
         let at_rest = dot(&mean, &pair.separation) * own.compressibility;
         *sum += L::splat(self.volume[j]) * (own.compression - compression - at_rest) * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
-    #[inline(always)]
     fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let own = self.own::<f64>(Particles::one(i));
@@ -216,8 +203,7 @@ impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
         if self.term.smoother.walls {
             for contact in at.contacts {
                 let there = self.term.compression(phase, contact.pressure);
-                let apart = contact.distance.max(self.nearest);
-                let slope = (own.compression - there) / apart;
+                let slope = (own.compression - there) / contact.distance.max(self.nearest);
                 let normal = &self.walls.elements.normal[contact.element as usize];
                 let at_rest = own_at_rest.dot(normal) * own.compressibility;
                 sum -= (slope - at_rest) * contact.gradient.norm();
@@ -225,5 +211,10 @@ impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
         }
         let scale = self.term.density[phase] * self.term.sound_speed[phase];
         rates.scalar += self.weight * scale * sum * at.inverse_renormalisation;
+    }
+
+    /// ∇p of the undiffused pressure, Pa/m.
+    fn at_rest(&self, i: usize, density: f64) -> Vect<D> {
+        (self.gravity - self.acceleration.map_or(Vect::zeros(), |a| a[i])) * density
     }
 }

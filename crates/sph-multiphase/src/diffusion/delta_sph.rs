@@ -2,13 +2,13 @@
 
 use sph_core::{Access, Field, Stage, Vect, Vector, fields, parameters, plugin, stage};
 use sph_neighbours::{
-    Around, BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, World,
-    dot, pair_term, unlike, walk_into,
+    Around, Lane, LanePair, Neighbourhood, Particles, Rates, Values, World, dot, pair_sum,
+    pair_term, unlike, walk_into,
 };
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
-use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::balance::linear_exact;
 use crate::diffusion::{SmootherEntry, Smoothing};
 
 /// dρ_a/dt += 2 δ h c_a/γ_a Σ_b V_b [ρ_a − ρ_b − ½(∇ρ_a + ∇ρ_b)·r_ab] F_ab over free neighbours
@@ -77,8 +77,7 @@ pub const DENSITY_GRADIENT: Field<Vector> = Field::new(
     "gradient of the density within the phase, exact for linear densities",
 );
 
-/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours
-/// span no volume.
+/// ∇ρ_a = [Σ_b V_b (r_b − r_a) ⊗ ∇w_ab]⁻¹ Σ_b V_b (ρ_b − ρ_a) ∇w_ab; nothing where the neighbours span no volume.
 fn density_gradient<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::DENSITY, fields::VOLUME))
@@ -124,14 +123,12 @@ pub struct BoundDelta<'a, const D: usize> {
     weight: f64,
 }
 
-impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundDelta<'_, D> {
     const SCALED: bool = true;
-    /// Density, its gradient, phase.
-    type Own<L: Lane> = (L, [L; D], L);
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    /// Density, its gradient, phase.
+    fn own<L: Lane>(&self, all: Particles) -> (L, [L; D], L) {
         let gradient = match self.gradient {
             Some(gradient) => all.vectors(gradient),
             None => [L::splat(0.0); D],
@@ -139,7 +136,6 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
         (all.numbers(self.density), gradient, all.phases(self.phase))
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let zero = L::splat(0.0);
         let linear = match self.gradient {
@@ -159,10 +155,7 @@ impl<const D: usize> PairSum<D> for BoundDelta<'_, D> {
         }
         *sum += more;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDelta<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let c = self.sound_speed[self.phase.map_or(0, |p| p[at.particle] as usize)];
         rates.scalar += self.weight * c * sum * at.inverse_renormalisation;

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{
-    Around, Contact, ContactRow, Lane, LanePair, PairSum, Particles, Values, World, add_scaled,
-    lattice_sum, unlike, walk_in_lanes, walk_some,
+    Around, Contact, ContactRow, Lane, LanePair, Neighbourhood, Particles, Values, World,
+    add_scaled, lattice_sum, pair_sum, unlike, walk_in_lanes, walk_some,
 };
 
 /// Measures of the arrangement of a particle's neighbourhood.
@@ -19,18 +19,6 @@ pub(crate) struct Evenness<const D: usize> {
     pub push: Vect<D>,
     /// Unit normal of the interface between phases, where the other phase is near.
     pub interface: Option<Vect<D>>,
-}
-
-impl<const D: usize> Evenness<D> {
-    /// Of no particle.
-    fn empty() -> Self {
-        Evenness {
-            filling: 0.0,
-            gradient: Vect::zeros(),
-            push: Vect::zeros(),
-            interface: None,
-        }
-    }
 }
 
 /// Least h |∇c| of another phase's colour at an interface: the first row has 0.7, the third 0.04.
@@ -57,49 +45,50 @@ pub(crate) fn evenness<const D: usize>(
     let mirrored = !points.in_density();
     let least = AT_INTERFACE / kernel.smoothing_length();
     // An image stands for the row of images of a lattice, which pushes as much and the more for those aside.
-    let row = if mirrored {
-        row_of_images(world, power)
-    } else {
-        0.0
+    let row = match mirrored {
+        true => row_of_images(world, power),
+        false => 0.0,
     };
-    all.resize(volume.len(), Evenness::empty());
-    walk_in_lanes(
-        world,
-        &sum,
-        |_| true,
-        all,
-        |(filling, gradient, push, colour), rows| {
-            let i = rows.particle;
-            let mut filling = volume[i] * own + filling;
-            let (mut gradient, mut push) = (Vect::from(gradient), Vect::from(push));
-            for (k, &v) in rows.wall.index.iter().enumerate() {
-                let w = kernel.at(rows.wall.distance2[k].sqrt()).0;
-                let part = points.share[v as usize] * points.volume[v as usize];
-                filling += part * w;
-                gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
-                if part > 0.0 {
-                    // However little of it is fluid, a particle is not to come nearer to a point than to another.
-                    let whole = points.volume[v as usize] * rows.wall.factor[k];
-                    push += rows.wall.separation[k] * (whole * tensile * power(w * between));
-                }
+    let mirrored_weight = |w| row * tensile * power(w * between);
+    let nothing = Evenness {
+        filling: 0.0,
+        gradient: Vect::zeros(),
+        push: Vect::zeros(),
+        interface: None,
+    };
+    all.resize(volume.len(), nothing);
+    type Sums<const D: usize> = (f64, [f64; D], [f64; D], [f64; D]);
+    let measures = |(filling, gradient, push, colour): Sums<D>, rows: &Neighbourhood<'_, D>| {
+        let i = rows.particle;
+        let mut filling = volume[i] * own + filling;
+        let (mut gradient, mut push) = (Vect::from(gradient), Vect::from(push));
+        for (v, pair) in rows.wall.pairs() {
+            let w = kernel.at(pair.distance2.sqrt()).0;
+            let part = points.share[v] * points.volume[v];
+            filling += part * w;
+            gradient += pair.separation * (part * pair.factor);
+            if part > 0.0 {
+                // However little of it is fluid, a particle is not to come nearer to a point than to another.
+                let whole = points.volume[v] * pair.factor;
+                push += pair.separation * (whole * tensile * power(w * between));
             }
-            let inverse = rows.inverse_renormalisation;
-            let concentration = filling * inverse;
-            for contact in rows.contacts {
-                gradient -= contact.gradient * concentration;
-            }
-            if mirrored {
-                push += images(world, rows.contacts, |w| row * tensile * power(w * between))
-                    * volume[i];
-            }
-            Evenness {
-                filling: concentration,
-                gradient: gradient * inverse,
-                push: (gradient + push) * inverse,
-                interface: Vect::from(colour).try_normalize(least),
-            }
-        },
-    )
+        }
+        let inverse = rows.inverse_renormalisation;
+        let concentration = filling * inverse;
+        for contact in rows.contacts {
+            gradient -= contact.gradient * concentration;
+        }
+        if mirrored {
+            push += images(world, rows.contacts, mirrored_weight) * volume[i];
+        }
+        Evenness {
+            filling: concentration,
+            gradient: gradient * inverse,
+            push: (gradient + push) * inverse,
+            interface: Vect::from(colour).try_normalize(least),
+        }
+    };
+    walk_in_lanes(world, &sum, |_| true, all, measures)
 }
 
 /// ratioⁿ by products.
@@ -112,7 +101,6 @@ fn power<L: Lane>(ratio: L, exponent: i32) -> L {
     }
 }
 
-/// Sums of free neighbours for an [`Evenness`].
 struct FreeSums<'a> {
     volume: &'a [f64],
     phase: Option<&'a [u32]>,
@@ -122,24 +110,20 @@ struct FreeSums<'a> {
     between: f64,
 }
 
-impl<const D: usize> PairSum<D> for FreeSums<'_> {
+#[pair_sum]
+impl<const D: usize> FreeSums<'_> {
     const VALUES: bool = true;
-    /// The phase.
-    type Own<L: Lane> = L;
-    /// The filling, its gradient, the push, and ΣV∇w over other phases.
-    type Sum<L: Lane> = (L, [L; D], [L; D], [L; D]);
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.phases(self.phase)
     }
-    #[inline(always)]
+    /// The filling, its gradient, the push, and ΣV∇w over other phases.
     fn pair<L: Lane>(
         &self,
         phase: &L,
         j: usize,
         pair: &LanePair<D, L>,
-        (filling, gradient, push, colour): &mut Self::Sum<L>,
+        (filling, gradient, push, colour): &mut (L, [L; D], [L; D], [L; D]),
     ) {
         let volume = L::splat(self.volume[j]);
         let weight = volume * pair.factor;
@@ -238,37 +222,25 @@ pub(crate) fn held_normals<const D: usize>(
         let near = |j: &u32| at_surface(&all[*j as usize]);
         at_surface(&all[i]) || world.lists.free.candidates(i).iter().any(near)
     };
-    let near: Vec<bool> = (0..all.len())
-        .into_par_iter()
-        .with_min_len(1024)
-        .map(near_any)
-        .collect();
-    let held = walk_some(
-        world,
-        Values::Both,
-        |i| near[i],
-        |around: &Around<'_, D>| {
-            let i = around.rows.particle;
-            let (mut sum, mut weight) = (Vect::<D>::zeros(), 0.0);
-            let mut add = |k: usize, w: f64| {
-                if at_surface(&all[k]) {
-                    sum += normal(&all[k]) * w;
-                    weight += w;
-                }
-            };
-            add(i, own);
-            let free = around.rows.free.index.iter().zip(around.free);
-            free.for_each(|(&j, w)| add(j as usize, *w));
-            match (weight > 0.0, sum.norm() >= AGREE * weight) {
-                (false, _) => ShiftLimit::No,
-                (true, true) => ShiftLimit::Along(sum.normalize()),
-                (true, false) => ShiftLimit::Still,
+    let each = (0..all.len()).into_par_iter().with_min_len(1024);
+    let near: Vec<bool> = each.map(near_any).collect();
+    let limit = |around: &Around<'_, D>| {
+        let (mut sum, mut weight) = (Vect::<D>::zeros(), 0.0);
+        let mut add = |k: usize, w: f64| {
+            if at_surface(&all[k]) {
+                sum += normal(&all[k]) * w;
+                weight += w;
             }
-        },
-    )?;
-    Ok(Some(
-        held.into_iter()
-            .map(|h| h.unwrap_or(ShiftLimit::No))
-            .collect(),
-    ))
+        };
+        add(around.rows.particle, own);
+        let free = around.rows.free.index.iter().zip(around.free);
+        free.for_each(|(&j, w)| add(j as usize, *w));
+        match (weight > 0.0, sum.norm() >= AGREE * weight) {
+            (false, _) => ShiftLimit::No,
+            (true, true) => ShiftLimit::Along(sum.normalize()),
+            (true, false) => ShiftLimit::Still,
+        }
+    };
+    let held = walk_some(world, Values::Both, |i| near[i], limit)?.into_iter();
+    Ok(Some(held.map(|h| h.unwrap_or(ShiftLimit::No)).collect()))
 }

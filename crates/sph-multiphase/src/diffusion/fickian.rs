@@ -9,7 +9,7 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use crate::diffusion::ShiftingEntry;
 use crate::diffusion::evenness::{Evenness, ShiftLimit, evenness, held_normals};
 use crate::diffusion::shift_transport::ShiftTransport;
-use crate::diffusion::shifted_sum::ShiftedSum;
+use crate::diffusion::shift_transport::ShiftedSum;
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
 /// s_a = −B h c 1/γ_a [Σ_b θ_b V_b (1 + R (w_ab/w(δr))ⁿ) ∇w_ab − Σ_s (C_a + R (w(2d_as)/w(δr))ⁿ) ∇γ_as],
@@ -131,27 +131,18 @@ fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl S
     // The measures of every particle's neighbourhood, kept from step to step.
     let mut all = Vec::new();
     stage("Fickian shifting", access, move |world: &mut World<D>| {
-        let Fickian {
-            strength,
-            tensile,
-            exponent,
-            limit,
-            surface,
-            along_walls,
-            ..
-        } = shifting;
         let fastest = largest_speeds(world)?;
         let mut shift = world.free.take(fields::SHIFT_VELOCITY)?;
         let mut void_fraction = world.free.take(fields::VOID_FRACTION)?;
         let phase = world.free.get(fields::PHASE).ok();
         if fastest.iter().any(|u| *u > 0.0) {
             let h = world.kernel.smoothing_length();
-            evenness(world, tensile, exponent, &mut all)?;
-            let normals = held_normals(world, &all, surface)?;
+            evenness(world, shifting.tensile, shifting.exponent, &mut all)?;
+            let normals = held_normals(world, &all, shifting.surface)?;
             // Rows that pass points that stand are rearranged all the time, so that no density is taken up beside them: a shift
             // would change the pressure by ρc², and a tank at rest would sing.
             let rough = world.walls.points.in_sums();
-            let along_walls = along_walls || !world.walls.frames.is_empty();
+            let along_walls = shifting.along_walls || !world.walls.frames.is_empty();
             let results = shift.par_iter_mut().zip(&mut void_fraction).zip(&all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
@@ -161,9 +152,10 @@ fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl S
                 }
                 *empty = 1.0 - even.filling;
                 let phase = phase.map_or(0, |p| p[i] as usize);
-                let fastest = fastest[phase];
-                let diffusivity = (strength * h * speeds[phase]).min(STABLE * h * h / world.dt);
-                *s = along_interface(even, -diffusivity * even.push, limit * fastest);
+                let diffusivity = shifting.strength * h * speeds[phase];
+                let diffusivity = diffusivity.min(STABLE * h * h / world.dt);
+                let most = shifting.limit * fastest[phase];
+                *s = along_interface(even, -diffusivity * even.push).cap_magnitude(most);
                 if let Some(normals) = &normals {
                     *s = normals[i].held(*s);
                     if !matches!(normals[i], ShiftLimit::No) {
@@ -184,16 +176,10 @@ fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl S
     })
 }
 
-/// The shift along the interface between phases, not longer than `most`.
-fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>, most: f64) -> Vect<D> {
-    let tangential = match even.interface {
+fn along_interface<const D: usize>(even: &Evenness<D>, shift: Vect<D>) -> Vect<D> {
+    match even.interface {
         Some(normal) => shift - normal * normal.dot(&shift),
         None => shift,
-    };
-    let length = tangential.norm();
-    match length > most {
-        true => tangential * (most / length),
-        false => tangential,
     }
 }
 
@@ -257,12 +243,9 @@ fn largest_speeds<const D: usize>(world: &World<D>) -> Result<Vec<f64>, StepErro
     let mut squares: Vec<f64> = (0..phases).map(largest).collect();
     world.largest(&mut squares)?;
     // A uniform wind differs from its own mean by rounding.
-    let speed = |square: &f64| {
-        if *square > 1e-24 * scale {
-            square.sqrt()
-        } else {
-            0.0
-        }
+    let speed = |square: &f64| match *square > 1e-24 * scale {
+        true => square.sqrt(),
+        false => 0.0,
     };
     Ok(squares.iter().map(speed).collect())
 }

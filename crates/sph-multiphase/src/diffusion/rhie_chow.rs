@@ -6,7 +6,7 @@ use sph_neighbours::{Around, Values, World, walk_into};
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::balance::PRESSURE_SLOPE;
-use crate::diffusion::linear_exact::linear_exact;
+use crate::diffusion::balance::linear_exact;
 use crate::diffusion::{Accelerated, BrezziPitkaranta, SmootherEntry, Smoothing};
 
 /// The term of [`BrezziPitkaranta`] with the mean A of g − s, s the slope of the pressure where the particle is:
@@ -56,7 +56,6 @@ impl<const D: usize> Contribution<D> for RhieChow {
     }
 }
 
-/// [`PRESSURE_SLOPE`].
 fn pressure_slope<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::PRESSURE, fields::DENSITY))

@@ -2,17 +2,16 @@
 
 use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled, dot,
-    pair_term, splat, unlike,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, add_scaled, dot, pair_sum, pair_term,
+    splat, unlike,
 };
 
 /// du/dt += (s·∇)u and dρ/dt += s·∇ρ with the shift velocity s, the gradients from differences:
 /// s·∇f = 1/γ_a [Σ_b θ_b V_b (f_b − f_a) s_a·∇w_ab − Σ_s (f_s − f_a) s_a·∇γ_as].
 ///
-/// From neighbours of the same phase, u also from walls that rub: a heavy particle that took up the velocity of light ones
-/// would take momentum from nowhere. Where the density is a sum
-/// over positions (ρ = (K + mΣθw)/γ), the move changes the sum by
-/// 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
+/// From neighbours of the same phase, u also from walls that rub: a heavy particle that took up the velocity of light
+/// ones would take momentum from nowhere. Where the density is a sum over positions (ρ = (K + mΣθw)/γ), the move
+/// changes the sum by 1/γ_a [m_a Σ_b θ_b (s_a − s_b)·∇w_ab − ρ_a s_a·Σ_s ∇γ_as], which is taken back.
 ///
 /// A density that takes no notice of shifts counts what brings particles together and not the shifts that
 /// part them again: it drifts, up to 5000 ρU² in a channel. It is therefore led back to that of the arrangement as
@@ -65,12 +64,8 @@ pub struct Own<const D: usize, L> {
     phase: L,
 }
 
-impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
-    type Own<L: Lane> = Own<D, L>;
-    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
-    type Sum<L: Lane> = ([L; D], L, L);
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> BoundShiftTransport<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         Own {
             shift: all.vectors(self.shift),
@@ -84,13 +79,13 @@ impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
         }
     }
 
-    #[inline(always)]
+    /// (s·∇)u, dρ/dt and ΣV|u·r||F|.
     fn pair<L: Lane>(
         &self,
         own: &Own<D, L>,
         j: usize,
         pair: &LanePair<D, L>,
-        sums: &mut Self::Sum<L>,
+        sums: &mut ([L; D], L, L),
     ) {
         let volume = L::splat(self.volume[j]);
         let along = dot(&own.shift, &pair.separation);
@@ -108,22 +103,14 @@ impl<const D: usize> PairSum<D> for BoundShiftTransport<'_, D> {
         let nearer = along - dot(&splat(&self.shift[j]), &pair.separation);
         sums.1 -= own.summed * nearer * pair.factor;
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundShiftTransport<'_, D> {
-    #[inline(always)]
-    fn finish(
-        &self,
-        (taken_up, mut rate, rearranged): ([f64; D], f64, f64),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sums: ([f64; D], f64, f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let void_fraction = self.void_fraction[i];
         if void_fraction == 0.0 {
             return;
         }
-        let mut taken_up = Vect::from(taken_up);
+        let (mut taken_up, mut rate, rearranged) = (Vect::from(sums.0), sums.1, sums.2);
         let (shift, velocity, density) = (self.shift[i], self.velocity[i], self.density[i]);
         let summed = if self.which.summed { self.mass[i] } else { 0.0 };
         for (v, pair) in at.wall.pairs() {
@@ -147,5 +134,66 @@ impl<const D: usize> BoundTerm<D> for BoundShiftTransport<'_, D> {
         }
         let back = self.which.relaxation * density * void_fraction * rearranged;
         rates.scalar += (rate - back) * at.inverse_renormalisation;
+    }
+}
+
+/// dρ/dt −= m_a Σ_b s_a s_b [(s_a − s_b)·∇w_ab + w_ab (σ_a + σ_b)], b = a included, with σ = s·∇ln s of the shift velocity:
+/// the change of ρ = K + m Σ s_a s_b w by a shift, which [`ShiftTransport`](crate::diffusion::ShiftTransport) takes back with γ where walls
+/// do not scale the kernel. Within reach of a free surface no density is taken up. Ours.
+#[derive(Clone, Copy, Debug)]
+pub struct ShiftedSum;
+
+/// [`ShiftedSum`] with its columns.
+#[pair_term(ShiftedSum, "shifted density sum")]
+pub struct BoundShiftedSum<'a, const D: usize> {
+    #[both(fields::SHIFT_VELOCITY)]
+    shift: &'a [Vect<D>],
+    #[here(fields::VOID_FRACTION)]
+    void_fraction: &'a [f64],
+    #[here(fields::MASS)]
+    mass: &'a [f64],
+    #[where_there(fields::SCALE_SLOPE)]
+    slope: Option<&'a [Vect<D>]>,
+}
+
+#[pair_sum]
+impl<const D: usize> BoundShiftedSum<'_, D> {
+    const SCALED: bool = true;
+
+    /// Shift velocity and its part along ∇ ln s.
+    fn own<L: Lane>(&self, all: Particles) -> ([L; D], L) {
+        let [along] = all.each(|i| [self.scale_rate(i)]);
+        (all.vectors(self.shift), along)
+    }
+
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
+        let other = dot(&splat(&self.shift[j]), &pair.separation);
+        *sum += (dot(&own.0, &pair.separation) - other) * pair.factor;
+    }
+
+    fn pair_at_walls<L: Lane>(
+        &self,
+        own: &Self::Own<L>,
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut L,
+    ) {
+        *sum += pair.value * (own.1 + L::splat(self.scale_rate(j)));
+    }
+
+    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+        let i = at.particle;
+        if self.void_fraction[i] == 0.0 {
+            return;
+        }
+        if let Some(scale) = at.scale() {
+            sum += 2.0 * scale.own_value * self.scale_rate(i);
+        }
+        rates.scalar -= self.mass[i] * sum;
+    }
+
+    /// s·∇ln s of a particle, 1/s.
+    fn scale_rate(&self, i: usize) -> f64 {
+        self.slope.map_or(0.0, |g| g[i].dot(&self.shift[i]))
     }
 }

@@ -25,7 +25,6 @@ pub struct Assembly<E, const C: usize> {
 }
 
 impl<E, const C: usize> Default for Assembly<E, C> {
-    /// No rows.
     fn default() -> Self {
         Assembly {
             pattern: Arc::default(),
@@ -100,18 +99,10 @@ impl<E: Entry<C>, const C: usize> Rows<E, C> {
         &self.others[self.begin..self.used]
     }
 
-    /// Σ c of the row at hand, in the order in which they came.
-    #[inline]
-    pub fn sum(&self) -> E {
-        let own = self.own().iter();
-        own.fold(E::ZERO, |sum, c| sum + *c * -1.0)
-    }
-
     /// Ends the row at hand: `own` stands on the diagonal besides the sum of the couplings, `source` on the right-hand side.
     #[inline]
     pub fn end(&mut self, own: E, source: Vect<C>) {
-        let couplings = self.own().iter();
-        let diagonal = couplings.fold(own, |sum, c| sum + *c * -1.0);
+        let diagonal = self.own().iter().fold(own, |sum, c| sum + *c * -1.0);
         self.close(diagonal, source);
     }
 
@@ -176,6 +167,12 @@ impl<E: Entry<C>, const C: usize> Assembly<E, C> {
             add(block, rows);
         });
         self.join(all);
+    }
+
+    /// Memory of pattern and values.
+    pub fn bytes(&self) -> usize {
+        let entries = size_of_val(&self.values.diagonal[..]) + size_of_val(&self.values.others[..]);
+        size_of_val(&self.pattern.starts[..]) + size_of_val(&self.pattern.columns[..]) + entries
     }
 
     /// Moves the rows of all parts to where a matrix has them.

@@ -1,11 +1,11 @@
 //! The choice between the solvers: iterations first, a factorisation where they take too long.
 
-use sph_core::{Vect, plugin};
+use sph_core::plugin;
 
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
-    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner,
-    Report, SolveError, Tolerance,
+    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, LinearSystem, Memories, Operator,
+    Preconditioner, Report, SolveError, SolveResult, Tolerance,
 };
 
 /// Iterates, and factorises where that takes too long:
@@ -66,30 +66,12 @@ fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
 }
 
 impl<const D: usize> LinearSolver<D> for Automatic {
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
-        self.solve_roughly(operator, right, x, 0.0)
-    }
-
     fn needs_entries(&self, operator: &dyn Operator<D>) -> bool {
         matches!(operator.diagonal(), Some(Diagonal::Scalar(_))) && !mild(operator)
     }
 
-    fn solve_roughly(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-        enough: f64,
-    ) -> Result<Report, SolveError> {
-        let within = |iterations: usize| Tolerance {
-            residual: self.tolerance.max(enough),
-            iterations,
-        };
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, enough: f64) -> SolveResult {
+        let within = |iterations| Tolerance::new(self.tolerance.max(enough), iterations);
         let Some(diagonal) = operator.diagonal() else {
             let (none, system) = (Preconditioner::None, (operator, right, x));
             let work = |memory: &mut _| iterate(none, within(ITERATIONS), memory, system);

@@ -2,11 +2,11 @@
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
+use crate::linear::operator::add;
 use crate::linear::precondition::Factors;
-use crate::linear::vector::add;
+use crate::linear::solver::{SolveMonitor, Tolerance};
 use crate::linear::{
-    LinearSolver, LinearSolverEntry, Operator, Preconditioner, Report, SolveError,
+    LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };
 
 /// BiCGSTAB (van der Vorst 1992), which needs no symmetry: the solver of the thesis. Two products per iteration; for
@@ -37,16 +37,8 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         self.preconditioner.factorises()
     }
 
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
-        let tolerance = Tolerance {
-            residual: self.tolerance,
-            iterations: self.iterations,
-        };
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
+        let tolerance = Tolerance::new(self.tolerance, self.iterations);
         let (mut history, mut factors) = (Vec::new(), Factors::default());
         let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let mut r = Vec::new();
@@ -56,12 +48,8 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
         }
         let precondition = self.preconditioner.bind(operator, METHOD, &mut factors)?;
         let bytes = 7 * size_of_val(&r[..]) + precondition.bytes();
-        let rows = right.len();
-        let zeros = || vec![Vect::<D>::zeros(); operator.columns()];
         let shadow = r.clone();
-        let (mut y, mut z) = (zeros(), zeros());
-        let own = || vec![Vect::<D>::zeros(); rows];
-        let (mut p, mut v, mut t) = (own(), own(), own());
+        let [mut y, mut z, mut p, mut v, mut t] = [(); 5].map(|_| vec![Vect::zeros(); r.len()]);
         let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
         loop {
             let next = operator.inner(&shadow, &r);
@@ -73,18 +61,17 @@ impl<const D: usize> LinearSolver<D> for Bicgstab {
             for ((p, r), v) in p.iter_mut().zip(&r).zip(&v) {
                 *p = r + (*p - v * omega) * beta;
             }
-            precondition.apply(&p, &mut y[..rows]);
+            precondition.apply(&p, &mut y);
             operator.apply(&mut y, &mut v);
             alpha = rho / operator.inner(&shadow, &v);
             add(&mut r, -alpha, &v);
             add(x, alpha, &y);
-            precondition.apply(&r, &mut z[..rows]);
+            precondition.apply(&r, &mut z);
             operator.apply(&mut z, &mut t);
             let squared = operator.inner(&t, &t);
-            omega = if squared > 0.0 {
-                operator.inner(&t, &r) / squared
-            } else {
-                0.0
+            omega = match squared > 0.0 {
+                true => operator.inner(&t, &r) / squared,
+                false => 0.0,
             };
             add(x, omega, &z);
             add(&mut r, -omega, &t);

@@ -6,9 +6,9 @@ use sparse::{Order, SparseError, UpperTriangle};
 use sph_core::{Vect, plugin};
 
 use crate::linear::matrix::{Entries, Matrix, Values};
-use crate::linear::vector::norm;
+use crate::linear::operator::{add, norm};
 use crate::linear::{
-    Entry, LinearSolver, LinearSolverEntry, Operator, Pattern, Report, SolveError,
+    Entry, LinearSolver, LinearSolverEntry, LinearSystem, Pattern, Report, SolveError, SolveResult,
 };
 
 /// A = L Lᵀ by faer, with the order of elimination kept while the pattern stays the same.
@@ -51,12 +51,7 @@ const REFINE: f64 = 1e-10;
 const REFUSE: f64 = 1e-4;
 
 impl<const D: usize> LinearSolver<D> for Cholesky {
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
         let matrix = operator.whole_matrix(METHOD)?;
         if right.is_empty() {
             return Ok(report(0.0, 0));
@@ -81,7 +76,7 @@ impl<const D: usize> LinearSolver<D> for Cholesky {
         if norm(&rest) > REFINE * scale {
             let mut correction = vec![Vect::zeros(); rest.len()];
             solve(kept, &rest, &mut correction);
-            crate::linear::vector::add(x, 1.0, &correction);
+            add(x, 1.0, &correction);
             operator.residual(right, x, &mut rest);
         }
         let relative = norm(&rest) / scale;
@@ -133,16 +128,13 @@ fn factorise(kept: &mut Workspace, rows: usize) -> Result<(), SolveError> {
 }
 
 fn solve<const D: usize>(kept: &mut Workspace, right: &[Vect<D>], x: &mut [Vect<D>]) {
+    let places = x.iter_mut().enumerate();
     if kept.blocks {
         let solution = kept.factor.solve_columns(1, |r, _| right[r / D][r % D]);
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = Vect::from_fn(|c, _| solution(i * D + c, 0));
-        }
+        places.for_each(|(i, x)| *x = Vect::from_fn(|c, _| solution(i * D + c, 0)));
     } else {
         let solution = kept.factor.solve_columns(D, |r, c| right[r][c]);
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = Vect::from_fn(|c, _| solution(i, c));
-        }
+        places.for_each(|(i, x)| *x = Vect::from_fn(|c, _| solution(i, c)));
     }
 }
 

@@ -1,12 +1,14 @@
-//! Preconditioned conjugate gradients.
+//! Preconditioned conjugate gradients, and their memory from solve to solve.
+
+use std::any::Any;
 
 use sph_core::{Vect, plugin};
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
-use crate::linear::memory::{Memory, Vectors};
-use crate::linear::vector::{add, scale_and_add};
+use crate::linear::operator::{add, scale_and_add};
+use crate::linear::precondition::Factors;
+use crate::linear::solver::{SolveMonitor, Tolerance};
 use crate::linear::{
-    LinearSolver, LinearSolverEntry, Memories, Operator, Preconditioner, Report, SolveError,
+    Halves, LinearSolver, LinearSolverEntry, LinearSystem, Operator, Preconditioner, SolveResult,
 };
 
 /// Conjugate gradients (Hestenes & Stiefel 1952), warm from the present state.
@@ -44,31 +46,12 @@ const METHOD: &str = "conjugate gradients";
 const PREPARE: usize = 3;
 
 impl<const D: usize> LinearSolver<D> for ConjugateGradient {
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
-        self.solve_roughly(operator, right, x, 0.0)
-    }
-
     fn needs_entries(&self, _: &dyn Operator<D>) -> bool {
         self.preconditioner.factorises()
     }
 
-    fn solve_roughly(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-        enough: f64,
-    ) -> Result<Report, SolveError> {
-        let tolerance = Tolerance {
-            residual: self.tolerance.max(enough),
-            iterations: self.iterations,
-        };
-        let system = (operator, right, x);
+    fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> SolveResult {
+        let tolerance = Tolerance::new(self.tolerance.max(enough), self.iterations);
         self.memories
             .with_memory(|memory| iterate(self.preconditioner, tolerance, memory, system))
     }
@@ -82,21 +65,18 @@ pub(crate) fn iterate<const D: usize>(
     preconditioner: Preconditioner,
     tolerance: Tolerance,
     memory: &mut Memory<D>,
-    (operator, right, x): (&dyn Operator<D>, &[Vect<D>], &mut [Vect<D>]),
-) -> Result<Report, SolveError> {
+    (operator, right, x): LinearSystem<'_, D>,
+) -> SolveResult {
     let Memory {
         history,
-        vectors,
-        factors,
-        halves,
-    } = memory;
-    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
-    let Vectors {
         r,
         z,
         direction,
         image,
-    } = vectors;
+        factors,
+        halves,
+    } = memory;
+    let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, history)?;
     operator.residual(right, x, r);
     if let Some(residual) = watch.reached(operator.norm(r))? {
         return Ok(watch.report(residual, size_of_val(&r[..])));
@@ -110,7 +90,6 @@ pub(crate) fn iterate<const D: usize>(
     z.resize(r.len(), Vect::zeros());
     precondition.apply(r, z);
     direction.clone_from(z);
-    direction.resize(operator.columns(), Vect::zeros());
     image.resize(r.len(), Vect::zeros());
     let mut slope = operator.inner(r, z);
     let (mut prepared, mut halves) = (None, Some(halves));
@@ -134,7 +113,45 @@ pub(crate) fn iterate<const D: usize>(
         }
         precondition.apply(r, z);
         let next = operator.inner(r, z);
-        scale_and_add(&mut direction[..z.len()], next / slope, z);
+        scale_and_add(direction, next / slope, z);
         slope = next;
+    }
+}
+
+/// Vectors and factors of the solves before, for vectors of D components.
+#[derive(Default)]
+pub(crate) struct Memory<const D: usize> {
+    /// Residuals of the solve at hand.
+    pub history: Vec<f64>,
+    pub r: Vec<Vect<D>>,
+    pub z: Vec<Vect<D>>,
+    pub direction: Vec<Vect<D>>,
+    pub image: Vec<Vect<D>>,
+    pub factors: Factors<D>,
+    pub halves: Halves<D>,
+}
+
+/// The memory of a solver.
+#[derive(Default)]
+pub struct Memories(Option<Box<dyn Any + Send + Sync>>);
+
+impl Memories {
+    /// Lends that of solves for vectors of D components.
+    pub(crate) fn with_memory<const D: usize, R>(
+        &mut self,
+        work: impl FnOnce(&mut Memory<D>) -> R,
+    ) -> R {
+        let kept = self.0.take().and_then(|kept| kept.downcast().ok());
+        let mut memory: Box<Memory<D>> = kept.unwrap_or_default();
+        let done = work(&mut memory);
+        self.0 = Some(memory);
+        done
+    }
+}
+
+impl Clone for Memories {
+    /// None yet: a memory is not shared.
+    fn clone(&self) -> Self {
+        Memories::default()
     }
 }

@@ -30,8 +30,6 @@ pub trait Entry<const D: usize>:
     fn transposed(&self) -> Self;
     /// a⁻¹ of a symmetric positive definite entry; nothing if it is not.
     fn inverted(&self) -> Option<Self>;
-    /// Its own diagonal, as an entry.
-    fn diagonal(&self) -> Self;
     /// Component of row r and column c; a number stands for a multiple of the unit matrix.
     fn component(&self, r: usize, c: usize) -> f64;
     /// Mean of its own diagonal: those of a row add up, as numbers do.
@@ -78,10 +76,6 @@ impl<const D: usize> Entry<D> for f64 {
     #[inline(always)]
     fn inverted(&self) -> Option<f64> {
         (*self > 0.0 && self.is_finite()).then(|| 1.0 / self)
-    }
-    #[inline(always)]
-    fn diagonal(&self) -> f64 {
-        *self
     }
     #[inline(always)]
     fn component(&self, r: usize, c: usize) -> f64 {
@@ -147,9 +141,6 @@ impl<const D: usize> Entry<D> for Block<D> {
     }
     fn inverted(&self) -> Option<Self> {
         nalgebra::linalg::Cholesky::new(*self).map(|c| c.inverse())
-    }
-    fn diagonal(&self) -> Self {
-        Block::from_diagonal(&Block::diagonal(self))
     }
     #[inline(always)]
     fn component(&self, r: usize, c: usize) -> f64 {

@@ -73,8 +73,7 @@ fn halve<'a, E: Entry<D>, const D: usize>(
     parts: &'a mut Vec<Part<E>>,
 ) -> Parts<'a, E> {
     let rows = pattern.len().div_ceil(PARTS).clamp(PART, MOST);
-    let count = pattern.len().div_ceil(rows);
-    parts.resize_with(count, Part::empty);
+    parts.resize_with(pattern.len().div_ceil(rows), Part::empty);
     parts.par_iter_mut().enumerate().for_each(|(k, part)| {
         let own = k * rows..((k + 1) * rows).min(pattern.len());
         part.refill(pattern, &values.others, own);
@@ -125,8 +124,8 @@ impl<E: Copy> Part<E> {
             let [first, middle, last] = [own.start, i, own.end].map(bound);
             let entries = &others[row];
             let inside = columns[first..middle].iter();
-            part.inside
-                .extend(inside.map(|j| (*j as usize - own.start) as u16));
+            let inside = inside.map(|j| (*j as usize - own.start) as u16);
+            part.inside.extend(inside);
             part.lower.extend_from_slice(&entries[first..middle]);
             for range in [0..first, last..columns.len()] {
                 part.outside.extend_from_slice(&columns[range.clone()]);
@@ -159,10 +158,8 @@ impl<E: Copy> Part<E> {
                 sum += a.apply(&own[j]);
                 y[j] += a.apply_transposed(&here);
             }
-            let pairs = self.others[beyond.clone()]
-                .iter()
-                .zip(&self.outside[beyond]);
-            for (a, &j) in pairs {
+            let entries = self.others[beyond.clone()].iter();
+            for (a, &j) in entries.zip(&self.outside[beyond]) {
                 sum += a.apply(&x[j as usize]);
             }
             y[i] = sum;
@@ -199,16 +196,12 @@ mod tests {
         let rows = 7001;
         let matrix = matrix(rows);
         assert_eq!(matrix.asymmetry(), 0.0);
-        let x: Vec<_> = (0..rows)
-            .map(|i| Vect::<2>::new(f64::from(i).sin(), f64::from(3 * i).cos()))
-            .collect();
-        let mut products = [
-            vec![Vect::<2>::zeros(); rows as usize],
-            vec![Vect::<2>::repeat(f64::NAN); rows as usize],
-        ];
-        matrix.multiply(&x, &mut products[0]);
-        Halved::new(&matrix, &mut Halves::default()).multiply(&x, &mut products[1]);
-        let apart = products[0].iter().zip(&products[1]);
+        let one = |i| Vect::<2>::new(f64::from(i).sin(), f64::from(3 * i).cos());
+        let x: Vec<_> = (0..rows).map(one).collect();
+        let [mut whole, mut halved] = [0.0, f64::NAN].map(|y| vec![Vect::repeat(y); rows as usize]);
+        matrix.multiply(&x, &mut whole);
+        Halved::new(&matrix, &mut Halves::default()).multiply(&x, &mut halved);
+        let apart = whole.iter().zip(&halved);
         let apart = apart.map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
         assert!(apart < 1e-13, "{apart:e}");
     }

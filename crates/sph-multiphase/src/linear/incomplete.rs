@@ -9,10 +9,9 @@ use crate::linear::{Entry, Pattern};
 /// A ≈ (P + L) P⁻¹ (P + Lᵀ) with L on the lower pattern of A:
 /// l_ij = a_ij − Σ_{k<j} l_ik p_k⁻¹ l_jkᵀ, p_i = a_ii − Σ_{k<i} l_ik p_k⁻¹ l_ikᵀ.
 ///
-/// Rows are cut into parts of 2048, whatever the number of threads; what couples parts is left out
-/// of L, so that they are factorised and solved side by side. For M-matrices all pivots are positive
-/// (Meijerink & van der Vorst 1977). Where one is not, the diagonal of the matrix is raised and the
-/// factorisation begun anew.
+/// Rows are cut into parts of 2048, whatever the number of threads; what couples parts is left out of L, so that they
+/// are factorised and solved side by side. For M-matrices all pivots are positive (Meijerink & van der Vorst 1977).
+/// Where one is not, the diagonal of the matrix is raised and the factorisation begun anew.
 ///
 /// L is kept to seven digits, in units of the largest pivot: the factors stay symmetric and positive definite whatever L
 /// is, an approximation need not be better, and a solve is the time that it takes to read them.
@@ -21,7 +20,6 @@ pub(crate) struct Incomplete<E: Entry<D>, const D: usize> {
 }
 
 impl<E: Entry<D>, const D: usize> Default for Incomplete<E, D> {
-    /// Of no rows.
     fn default() -> Self {
         Incomplete { parts: Vec::new() }
     }

@@ -2,9 +2,9 @@
 
 use sph_core::Vect;
 
-use crate::linear::krylov::{SolveMonitor, Tolerance};
 use crate::linear::precondition::Factors;
-use crate::linear::{LinearSolver, Operator, Preconditioner, Report, SolveError};
+use crate::linear::solver::{SolveMonitor, Tolerance};
+use crate::linear::{LinearSolver, LinearSystem, Preconditioner, SolveResult};
 
 /// x ← x + D⁻¹(b − A x) with the diagonal blocks D of A, until |b − A x|/|b| is small.
 ///
@@ -21,16 +21,8 @@ pub struct Jacobi {
 const METHOD: &str = "Jacobi";
 
 impl<const D: usize> LinearSolver<D> for Jacobi {
-    fn solve(
-        &mut self,
-        operator: &dyn Operator<D>,
-        right: &[Vect<D>],
-        x: &mut [Vect<D>],
-    ) -> Result<Report, SolveError> {
-        let tolerance = Tolerance {
-            residual: self.tolerance,
-            iterations: self.sweeps,
-        };
+    fn solve_to(&mut self, (operator, right, x): LinearSystem<'_, D>, _: f64) -> SolveResult {
+        let tolerance = Tolerance::new(self.tolerance, self.sweeps);
         let (mut history, mut factors) = (Vec::new(), Factors::default());
         let mut watch = SolveMonitor::new(METHOD, tolerance, operator, right, &mut history)?;
         let diagonal = Preconditioner::BlockJacobi.bind(operator, METHOD, &mut factors)?;
@@ -51,15 +43,13 @@ impl<const D: usize> LinearSolver<D> for Jacobi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{Entries, Matrix, Pattern};
+    use crate::linear::{Entries, Matrix, Pattern, SolveError};
 
     /// A chain of n rows, held at both ends: the spectral radius is cos(π/(n + 1)).
     fn sweeps(n: u32) -> usize {
         let row = |i: u32| [i.checked_sub(1), (i + 1 < n).then_some(i + 1)];
-        let rows: Vec<Vec<u32>> = (0..n)
-            .map(|i| row(i).into_iter().flatten().collect())
-            .collect();
-        let pattern = Pattern::from_rows(&rows);
+        let rows = (0..n).map(|i| row(i).into_iter().flatten().collect());
+        let pattern = Pattern::from_rows(&rows.collect::<Vec<Vec<u32>>>());
         let entries = Entries::scalar(vec![2.0; n as usize], vec![-1.0; 2 * n as usize - 2]);
         let matrix = Matrix::<2>::new(pattern, entries);
         let right = vec![Vect::<2>::new(1.0, -1.0); n as usize];
@@ -94,10 +84,8 @@ mod tests {
             tolerance: 1e-12,
             sweeps: 5,
         };
-        let solved = jacobi.solve(&matrix, &right, &mut [Vect::zeros(); 2]);
-        assert!(matches!(
-            solved,
-            Err(SolveError::NotConverged { iterations: 5, .. })
-        ));
+        let error = jacobi.solve(&matrix, &right, &mut [Vect::zeros(); 2]).err();
+        let five = |e| matches!(e, SolveError::NotConverged { iterations: 5, .. });
+        assert!(error.is_some_and(five));
     }
 }

@@ -61,7 +61,6 @@ pub struct Values<E> {
 }
 
 impl<E> Default for Values<E> {
-    /// No rows.
     fn default() -> Self {
         Values {
             diagonal: Vec::new(),

@@ -55,22 +55,17 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
 
     /// The matrix without couplings to copies: its preconditioner reaches as far.
     fn cut(&self) -> Matrix<1> {
-        let mut pattern = Pattern {
-            starts: vec![0],
-            columns: Vec::new(),
-        };
+        let mut pattern = Pattern::from_rows(&[]);
         let mut cut = Values::default();
         if let Entries::Scalar(values) = &self.matrix.entries {
             cut.diagonal.clone_from(&values.diagonal);
             for i in 0..self.matrix.rows() {
                 let row = self.matrix.pattern.row(i);
-                for (j, value) in row
-                    .clone()
-                    .map(|k| (self.matrix.pattern.columns[k], values.others[k]))
-                {
+                for k in row {
+                    let j = self.matrix.pattern.columns[k];
                     if self.owned.has(j as usize) {
                         pattern.columns.push(j);
-                        cut.others.push(value);
+                        cut.others.push(values.others[k]);
                     }
                 }
                 pattern.starts.push(pattern.columns.len() as u32);

@@ -24,7 +24,6 @@ pub enum Preconditioner {
     IncompleteCholesky,
 }
 
-/// A preconditioner of one matrix.
 pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     Nothing,
     Scalar(&'s [f64]),
@@ -33,7 +32,6 @@ pub(crate) enum BoundPreconditioner<'s, const D: usize> {
     IncompleteBlock(&'s Incomplete<Block<D>, D>),
 }
 
-/// Factors of preconditioners.
 #[derive(Default)]
 pub(crate) struct Factors<const D: usize> {
     scalar: Vec<f64>,
@@ -66,21 +64,22 @@ impl Preconditioner {
         } else if self.factorises() {
             let Matrix { pattern, entries } = operator.assembled().ok_or(missing)?;
             let quick = self == Preconditioner::IncompleteDiagonal;
-            let (scalar, block) = (
-                &mut factors.incomplete_scalar,
-                &mut factors.incomplete_block,
-            );
             match entries {
-                Entries::Scalar(own) => scalar
-                    .refill(pattern, own, quick)
-                    .map(Bound::IncompleteScalar),
-                Entries::Block(own) => block
-                    .refill(pattern, own, quick)
-                    .map(Bound::IncompleteBlock),
+                Entries::Scalar(own) => {
+                    let factor = factors.incomplete_scalar.refill(pattern, own, quick);
+                    factor.map(Bound::IncompleteScalar)
+                }
+                Entries::Block(own) => {
+                    let factor = factors.incomplete_block.refill(pattern, own, quick);
+                    factor.map(Bound::IncompleteBlock)
+                }
             }
         } else {
             let whole = self == Preconditioner::BlockJacobi;
-            let part = |d: &Block<D>| if whole { *d } else { Entry::<D>::diagonal(d) };
+            let part = |d: &Block<D>| match whole {
+                true => *d,
+                false => Block::from_diagonal(&d.diagonal()),
+            };
             match operator.diagonal().ok_or(missing)? {
                 Diagonal::Scalar(all) => {
                     inverted::<D, _>(&mut factors.scalar, all, |d| *d).map(Bound::Scalar)
@@ -133,6 +132,6 @@ impl<const D: usize> BoundPreconditioner<'_, D> {
 
 fn apply_inverse<const D: usize, E: Entry<D>>(inverse: &[E], r: &[Vect<D>], z: &mut [Vect<D>]) {
     let rows = z.par_iter_mut().zip(r).zip(inverse);
-    rows.with_min_len(ROWS)
-        .for_each(|((z, r), d)| *z = d.apply(r));
+    let rows = rows.with_min_len(ROWS);
+    rows.for_each(|((z, r), d)| *z = d.apply(r));
 }

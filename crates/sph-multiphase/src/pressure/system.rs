@@ -134,7 +134,6 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
     }
 }
 
-/// Sums of the rows of a cluster.
 struct ClusterSums<'a> {
     candidates: &'a [u32],
     scratch: &'a mut ClusterCoefficients,

@@ -87,9 +87,8 @@ fn find<const D: usize>(
 ) -> Result<(), StepError> {
     places.clear();
     places.resize(world.free.len(), Place::Inside);
-    walk_into(world, Values::Both, wanted, places, |around| {
-        place(world, around)
-    })?;
+    let measured = |around: &Around<'_, D>| place(world, around);
+    walk_into(world, Values::Both, wanted, places, measured)?;
     let places = &places[..];
     let lists = world.lists.nearest();
     let position = world.free.get(fields::POSITION)?;
@@ -148,10 +147,10 @@ fn place<const D: usize>(world: &World<D>, around: &Around<'_, D>) -> Place {
     for (separation, factor) in rows.free.separation.iter().zip(rows.free.factor) {
         gradient += separation * (cell * factor);
     }
-    for (k, &v) in rows.wall.index.iter().enumerate() {
-        let part = points.share[v as usize] * points.volume[v as usize];
-        others += part * around.wall[k];
-        gradient += rows.wall.separation[k] * (part * rows.wall.factor[k]);
+    for ((v, pair), w) in rows.wall.pairs().zip(around.wall) {
+        let part = points.share[v] * points.volume[v];
+        others += part * w;
+        gradient += pair.separation * (part * pair.factor);
     }
     let inverse = rows.inverse_renormalisation;
     if others * inverse < own {

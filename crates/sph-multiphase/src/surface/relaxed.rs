@@ -71,7 +71,8 @@ impl<const D: usize> Contribution<D> for ConeTest {
                 plugin: *self,
                 phases: laws.map(|r| (r.density, r.sound_speed)).collect(),
                 energy: 0.0,
-                scratch: Scratch::default(),
+                parts: Vec::new(),
+                given: Vec::new(),
             });
         }
         Ok(())
@@ -94,69 +95,60 @@ pub(super) fn set_parts(
     parts.extend(speeds.map(|c| 1.0 - (-dt * c / length).exp()));
 }
 
-/// The work of [`ConeTest`] in a step.
 struct Relaxation {
     plugin: ConeTest,
     /// ρ₀, kg/m³, and c, m/s, of every phase.
     phases: Vec<(f64, f64)>,
     /// Energy that it has given to the particles, J.
     energy: f64,
-    scratch: Scratch,
-}
-
-/// Kept for its memory.
-#[derive(Default)]
-struct Scratch {
-    /// Share of the difference that goes in a step, phase by phase.
+    /// Share of the difference that goes in a step, phase by phase; kept for its memory, as `given` is.
     parts: Vec<f64>,
     /// Energy given to each batch of particles, J.
     given: Vec<f64>,
 }
 
-/// A particle as the relaxation sees it.
-struct RelaxedParticle {
-    place: f64,
-    constant: f64,
-    density: f64,
-    gamma: f64,
-}
-
-impl Relaxation {
-    /// Change of K of a particle in a step of which a share `part` of the difference goes.
-    fn change(&self, seen: &RelaxedParticle, reference: f64, part: f64) -> f64 {
-        let slack = self.plugin.tolerance * reference;
-        let place = |p: Place| seen.place == p.number();
-        if place(Place::Alone) {
-            seen.gamma * (reference - seen.density)
-        } else if place(Place::At) && self.plugin.no_pressure {
-            part * seen.gamma * (reference - seen.density)
-        } else if place(Place::At) {
-            part * seen.gamma * (reference - slack - seen.density).max(0.0)
-        } else if place(Place::Inside) {
-            part * (seen.constant.clamp(-slack, slack) - seen.constant)
+impl ConeTest {
+    /// Change of K of a particle with K, ρ and γ in a step of which a share `part` of the difference goes.
+    fn change(
+        &self,
+        place: f64,
+        [constant, density, gamma]: [f64; 3],
+        reference: f64,
+        part: f64,
+    ) -> f64 {
+        let slack = self.tolerance * reference;
+        let is = |p: Place| place == p.number();
+        if is(Place::Alone) {
+            gamma * (reference - density)
+        } else if is(Place::At) && self.no_pressure {
+            part * gamma * (reference - density)
+        } else if is(Place::At) {
+            part * gamma * (reference - slack - density).max(0.0)
+        } else if is(Place::Inside) {
+            part * (constant.clamp(-slack, slack) - constant)
         } else {
             0.0
         }
     }
+}
 
-    /// Relaxes the constants over a step; returns the energy of the particles from it, J.
+impl Relaxation {
+    /// Relaxes the constants over a step, and counts the energy of the particles from it.
     fn relax<const D: usize>(
-        &self,
+        &mut self,
         world: &World<D>,
         constant: &mut [f64],
-        scratch: &mut Scratch,
         dt: f64,
-    ) -> Result<f64, StepError> {
+    ) -> Result<(), StepError> {
         let h = world.kernel.smoothing_length();
         let (surface, density) = world.free.all((FREE_SURFACE, fields::DENSITY))?;
         let (pressure, volume) = world.free.all((fields::PRESSURE, fields::VOLUME))?;
         let phase = world.free.get(fields::PHASE).ok();
         let gamma = world.free.get(fields::RENORMALISATION).ok();
-        let Scratch { parts, given } = scratch;
         let open = &world.walls.elements.open;
         let speeds = self.phases.iter().map(|(_, c)| *c);
-        set_parts(parts, speeds, self.plugin.time * h, dt);
-        let parts = &parts[..];
+        set_parts(&mut self.parts, speeds, self.plugin.time * h, dt);
+        let (plugin, phases, parts) = (self.plugin, &self.phases, &self.parts);
         let one = |i: usize, constant: &mut f64| -> f64 {
             let phase = phase.map_or(0, |p| p[i] as usize);
             let mut contacts = world.walls.contacts.of_particle(i).iter();
@@ -164,26 +156,21 @@ impl Relaxation {
             if inside && contacts.any(|c| open.get(c.element as usize) == Some(&true)) {
                 return 0.0;
             }
-            let seen = RelaxedParticle {
-                place: surface[i],
-                constant: *constant,
-                density: density[i],
-                gamma: gamma.map_or(1.0, |g| g[i]),
-            };
-            let change = self.change(&seen, self.phases[phase].0, parts[phase]);
+            let seen = [*constant, density[i], gamma.map_or(1.0, |g| g[i])];
+            let change = plugin.change(surface[i], seen, phases[phase].0, parts[phase]);
             *constant += change;
             // dE = m p/ρ² dρ
-            volume[i] * pressure[i] * change / (seen.gamma * seen.density)
+            volume[i] * pressure[i] * change / (seen[2] * density[i])
         };
         const BATCH: usize = 2048;
         let batches = constant.par_chunks_mut(BATCH).enumerate();
-        batches
-            .map(|(batch, all)| {
-                let places = all.iter_mut().enumerate();
-                places.map(|(k, c)| one(batch * BATCH + k, c)).sum()
-            })
-            .collect_into_vec(given);
-        Ok(given.iter().sum())
+        let given = batches.map(|(batch, all)| {
+            let places = all.iter_mut().enumerate();
+            places.map(|(k, c)| one(batch * BATCH + k, c)).sum()
+        });
+        given.collect_into_vec(&mut self.given);
+        self.energy += self.given.iter().sum::<f64>();
+        Ok(())
     }
 }
 
@@ -204,10 +191,7 @@ impl<const D: usize> StepHook<D> for Relaxation {
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
         let (world, dt) = (&mut *moment.world, moment.dt);
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let mut scratch = std::mem::take(&mut self.scratch);
-        let given = self.relax(world, &mut constant, &mut scratch, dt);
-        self.scratch = scratch;
-        self.energy += given?;
+        self.relax(world, &mut constant, dt)?;
         Ok(world.free.put(fields::DENSITY_CONSTANT, constant)?)
     }
     fn report(&self, _: &World<D>) -> Report {
@@ -245,22 +229,12 @@ mod tests {
             (At, 0.0, 1100.0, 0.5, false, 0.0),
             (Alone, 0.0, 140.0, 0.5, false, 860.0),
         ] {
-            let relaxation = Relaxation {
-                plugin: ConeTest {
-                    no_pressure,
-                    ..ConeTest::default()
-                },
-                phases: vec![(1000.0, 30.0)],
-                energy: 0.0,
-                scratch: Scratch::default(),
+            let plugin = ConeTest {
+                no_pressure,
+                ..ConeTest::default()
             };
-            let seen = RelaxedParticle {
-                place: place.number(),
-                constant,
-                density,
-                gamma: 1.0,
-            };
-            let found = relaxation.change(&seen, 1000.0, part);
+            let seen = [constant, density, 1.0];
+            let found = plugin.change(place.number(), seen, 1000.0, part);
             assert_eq!(found, change, "{place:?} with {constant} and {density}");
         }
     }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase};
 use sph_core::{Access, StepError, Symmetric, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World,
-    add_scaled, dot, minus, pair_term, splat, walk_in_lanes,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, World, add_scaled, dot, minus,
+    pair_sum, pair_term, splat, walk_in_lanes,
 };
 
 use super::cone::free_surface;
@@ -84,10 +84,8 @@ fn apply<L: Lane, const D: usize>(tensor: &[L; 6], r: &[L; D]) -> [L; D] {
     out
 }
 
-/// The force of [`Renormalised`].
 struct SurfacePressure;
 
-/// [`SurfacePressure`] with its columns.
 #[pair_term(SurfacePressure, "pressure at free surfaces")]
 struct BoundSurfacePressure<'a, const D: usize> {
     #[both(MOMENT_EXCESS)]
@@ -102,32 +100,26 @@ struct BoundSurfacePressure<'a, const D: usize> {
     walls: &'a WallSet<D>,
 }
 
+#[pair_sum]
 impl<const D: usize> BoundSurfacePressure<'_, D> {
-    /// p V² N.
-    #[inline(always)]
-    fn weighted(&self, i: usize) -> [f64; 6] {
-        (self.excess[i] * (self.pressure[i] * self.volume[i] * self.volume[i])).0
-    }
-}
-
-impl<const D: usize> PairSum<D> for BoundSurfacePressure<'_, D> {
     const SCALED: bool = true;
-    /// p V² N.
-    type Own<L: Lane> = [L; 6];
-    /// Σ (p V² N)∇w over both, and Σ of the tensors times w.
-    type Sum<L: Lane> = ([L; D], [L; 6]);
 
-    #[inline(always)]
+    /// p V² N.
     fn own<L: Lane>(&self, all: Particles) -> [L; 6] {
         all.each(|i| self.weighted(i))
     }
-    #[inline(always)]
-    fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut Self::Sum<L>) {
+    /// Σ (p V² N)∇w over both, and Σ of the tensors times w.
+    fn pair<L: Lane>(
+        &self,
+        own: &[L; 6],
+        j: usize,
+        pair: &LanePair<D, L>,
+        sum: &mut ([L; D], [L; 6]),
+    ) {
         let both = plus(own, &self.weighted(j));
         let force = apply(&both, &pair.separation);
         add_scaled(&mut sum.0, &force, pair.factor);
     }
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &[L; 6],
@@ -138,24 +130,10 @@ impl<const D: usize> PairSum<D> for BoundSurfacePressure<'_, D> {
         let both = plus(own, &self.weighted(j));
         add_scaled(&mut sum.1, &both, pair.value);
     }
-}
 
-/// The sum of a tensor in lanes and of one for all.
-#[inline(always)]
-fn plus<L: Lane>(own: &[L; 6], other: &[f64; 6]) -> [L; 6] {
-    std::array::from_fn(|k| own[k] + L::splat(other[k]))
-}
-
-impl<const D: usize> BoundTerm<D> for BoundSurfacePressure<'_, D> {
-    #[inline(always)]
-    fn finish(
-        &self,
-        (sum, of_values): ([f64; D], [f64; 6]),
-        at: &Neighbourhood<'_, D>,
-        rates: &mut Rates<D>,
-    ) {
+    fn finish(&self, sum: ([f64; D], [f64; 6]), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let own = Symmetric(self.weighted(at.particle));
-        let mut sum = Vect::from(sum);
+        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
         if let Some(scale) = at.scale() {
             let all = Symmetric(of_values) + own * (2.0 * scale.own_value);
             sum += all.apply(&scale.slope);
@@ -168,6 +146,17 @@ impl<const D: usize> BoundTerm<D> for BoundSurfacePressure<'_, D> {
         }
         rates.acceleration -= sum / self.mass[at.particle];
     }
+
+    /// p V² N.
+    fn weighted(&self, i: usize) -> [f64; 6] {
+        (self.excess[i] * (self.pressure[i] * self.volume[i] * self.volume[i])).0
+    }
+}
+
+/// The sum of a tensor in lanes and of one for all.
+#[inline(always)]
+fn plus<L: Lane>(own: &[L; 6], other: &[f64; 6]) -> [L; 6] {
+    std::array::from_fn(|k| own[k] + L::splat(other[k]))
 }
 
 /// Σ θ u_ab·N_a ∇w_ab of free neighbours.
@@ -177,14 +166,12 @@ struct StrainSum<'a, const D: usize> {
     slope: Option<&'a [Vect<D>]>,
 }
 
-impl<const D: usize> PairSum<D> for StrainSum<'_, D> {
+#[pair_sum]
+impl<const D: usize> StrainSum<'_, D> {
     const SCALED: bool = true;
-    /// N, velocity, N ∇ln s.
-    type Own<L: Lane> = ([L; 6], [L; D], [L; D]);
-    type Sum<L: Lane> = L;
 
-    #[inline(always)]
-    fn own<L: Lane>(&self, all: Particles) -> Self::Own<L> {
+    /// N, velocity, N ∇ln s.
+    fn own<L: Lane>(&self, all: Particles) -> ([L; 6], [L; D], [L; D]) {
         let excess = all.each(|i| self.excess[i].0);
         let slope = match self.slope {
             Some(slope) => apply(&excess, &all.vectors(slope)),
@@ -192,12 +179,10 @@ impl<const D: usize> PairSum<D> for StrainSum<'_, D> {
         };
         (excess, all.vectors(self.velocity), slope)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         let apart = minus(&own.1, &self.velocity[j]);
         *sum += dot(&apart, &apply(&own.0, &pair.separation)) * pair.factor;
     }
-    #[inline(always)]
     fn pair_at_walls<L: Lane>(
         &self,
         own: &Self::Own<L>,
@@ -249,8 +234,7 @@ impl SurfaceStrain {
             }
             for contact in rows.contacts {
                 let apart = velocity[i] - walls.elements.velocity_at(&contact);
-                let along = apart.dot(&excess[i].apply(&contact.gradient));
-                strain -= along / volume[i];
+                strain -= apart.dot(&excess[i].apply(&contact.gradient)) / volume[i];
             }
             strain
         })

@@ -49,9 +49,8 @@ fn pushed<const D: usize>(
     let owned = world.owned();
     let part = |k: usize| {
         let (i, b) = &rows[k];
-        owned
-            .has(*i)
-            .then(|| <[f64; 6]>::from(b.transpose() * u[*i]))
+        let own = || <[f64; 6]>::from(b.transpose() * u[*i]);
+        owned.has(*i).then(own)
     };
     Ok(world.sums_of(rows.len(), &part)?.into())
 }
@@ -124,14 +123,12 @@ impl<const D: usize> BodyResponse<D> {
             return Ok(None);
         };
         let roots = root * factor.l();
+        let roots = roots.column_iter();
         Ok(Some(BodyResponse {
             body: body.clone(),
             before: pushed(world, &rows, earlier)?,
             rows,
-            roots: roots
-                .column_iter()
-                .map(|c| c.fixed_rows::<6>(0).into_owned())
-                .collect(),
+            roots: roots.map(|c| c.fixed_rows::<6>(0).into_owned()).collect(),
             ahead,
         }))
     }
@@ -173,7 +170,7 @@ impl<const D: usize> Bodies<D> {
         let mut vectors = Vec::new();
         for one in &self.0 {
             let column = |v: &Vector6<f64>| {
-                let mut g = vec![Vect::<D>::zeros(); base.columns()];
+                let mut g = vec![Vect::<D>::zeros(); base.rows()];
                 one.rows.iter().for_each(|(i, b)| g[*i] = b * v * dt);
                 base.import(&mut g);
                 g

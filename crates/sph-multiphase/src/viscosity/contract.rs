@@ -1,10 +1,10 @@
-//! The trait of viscous operators, and viscosities of eddies that particles do not resolve.
+//! The trait of viscous operators, their friction as a matrix, the step that it allows, and viscosities of eddies.
 
-use sph_contribution::{Contribution, Stages, contribution_kind};
-use sph_core::{Work, contract};
-use sph_neighbours::Interaction;
-
-use crate::viscosity::Coupling;
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+use sph_contribution::{Contribution, Limiter, Stages, contribution_kind};
+use sph_core::{Access, StepError, StepLimit, Vect, Work, contract, fields};
+use sph_neighbours::{Cluster, Interaction, Kinds, Neighbourhood, World};
 
 /// Source of the viscosity for a viscous operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,3 +51,93 @@ contribution_kind!(
     pub EddyViscosityEntry, "eddy-viscosity", One, "viscosity of eddies that particles do not resolve",
     .ordered(50).works(Work::Friction)
 );
+
+/// A friction that is linear in the velocities: m_a γ_a a_a = −Σ_b C_ab (u_a − u_b) − W_a u_a + s_a with C_ab = C_baᵀ.
+pub trait Coupling<const D: usize>: Send + Sync {
+    /// Columns read.
+    fn access(&self) -> Access;
+    /// True if C and W mix the components of the velocity.
+    fn mixes_components(&self) -> bool;
+    /// Lends the coupling with its columns to `with`, once.
+    ///
+    /// # Errors
+    /// If a column is missing, and those of `with`.
+    fn with_columns(
+        &self,
+        world: &World<D>,
+        with: &mut WithCoupling<'_, D>,
+    ) -> Result<(), StepError>;
+}
+
+/// Work with a coupling that has its columns.
+pub type WithCoupling<'w, const D: usize> =
+    dyn FnMut(&dyn BoundCoupling<D>) -> Result<(), StepError> + 'w;
+
+/// Wall terms of a particle.
+#[derive(Clone, Copy, Debug)]
+pub struct CouplingRow<W, const D: usize> {
+    /// W_a, N s/m.
+    pub wall: W,
+    /// s_a, N: from the velocities of walls.
+    pub source: Vect<D>,
+}
+
+/// A [`Coupling`] with its columns. Since the separation is the only direction, C_ab = α 1 + β r rᵀ.
+pub trait BoundCoupling<const D: usize>: Sync {
+    /// Parts of α and β that are not zero everywhere.
+    fn kinds(&self) -> Kinds;
+
+    /// α (N s/m), β (N s/m³) and their norm |α| + |β| r² for every candidate of a cluster, one number per lane each;
+    /// exactly zero beyond the support.
+    fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>);
+
+    /// True if [`walls`](Self::scalar_walls) reads the free neighbours of a particle.
+    fn walls_need_neighbours(&self, particle: usize) -> bool;
+
+    /// W and s of walls, for couplings that do not mix components.
+    ///
+    /// At a wall the normal part of the velocity is that of the present state.
+    fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D>;
+
+    /// W and s of walls.
+    fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<SMatrix<f64, D, D>, D>;
+}
+
+/// Δt ≤ C ρ h² / η, Ghaïtanellis 2017, Eq. 2.106; where viscosities depend on the flow, with the
+/// largest η/ρ of the present state.
+pub struct ViscousLimit {
+    /// C, already divided by the operator's stiffness.
+    pub coefficient: f64,
+    /// Largest η/ρ₀ that the laws allow, m²/s; may be infinite.
+    pub largest: f64,
+    /// True if all viscosities are constant, so that it is the one of every state.
+    pub constant: bool,
+}
+
+impl<const D: usize> Limiter<D> for ViscousLimit {
+    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+        let h = world.kernel.smoothing_length();
+        let kinematic_viscosity = match self.constant {
+            true => self.largest,
+            false => {
+                let (viscosity, density) = world.free.all((fields::VISCOSITY, fields::DENSITY))?;
+                let both = viscosity.par_iter().zip(density).with_min_len(1024);
+                let present = both.map(|(eta, rho)| eta / rho).reduce(|| 0.0, f64::max);
+                // Before the first evaluation the bounds of the laws alone are known.
+                match present > 0.0 || self.largest.is_infinite() {
+                    true => present,
+                    false => self.largest,
+                }
+            }
+        };
+        let dt = self.coefficient * h * h / kinematic_viscosity;
+        Ok(StepLimit::new("viscosity", dt))
+    }
+    fn remedy(&self) -> Option<String> {
+        let away = "treating the viscosity implicitly (`[implicit-viscosity.backward-euler]`) takes this bound away";
+        Some(away.into())
+    }
+    fn formula(&self) -> String {
+        format!("viscosity: dt <= {} h² / ν", self.coefficient)
+    }
+}

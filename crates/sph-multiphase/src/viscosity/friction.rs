@@ -1,9 +1,9 @@
 //! Viscous operators as sums over pairs, and their friction at walls.
 
-use sph_core::{Access, StepError, Vect, fields};
+use sph_core::{Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Contacts, Elements, Lane, LanePair, Neighbourhood, Pair, PairSum, PairTerm,
-    Particles, Rates, WallPoints, World, add_scaled, dot, minus, scaled, splat, vector,
+    Lane, LanePair, Neighbourhood, Pair, Particles, Rates, WallSet, World, add_scaled, dot, minus,
+    pair_sum, pair_term, scaled, splat, vector,
 };
 
 use crate::viscosity::{BoundViscosity, OwnViscosity, ViscositySource};
@@ -33,17 +33,11 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     fn strengths<L: Lane>(self, volume: L, there: L, distance2: L, factor: L) -> [L; 2];
     /// f, 1/m² times the relative velocity u_ab, of several particles.
     #[inline(always)]
-    fn forces<L: Lane>(
-        self,
-        volume: L,
-        there: L,
-        relative: &[L; D],
-        pair: &LanePair<D, L>,
-    ) -> [L; D] {
+    fn forces<L: Lane>(self, volume: L, there: L, u: &[L; D], pair: &LanePair<D, L>) -> [L; D] {
         let [even, along] = self.strengths(volume, there, pair.distance2, pair.factor);
-        let mut force = scaled(*relative, even);
+        let mut force = scaled(*u, even);
         if Self::DIRECTIONAL {
-            let along = along * dot(relative, &pair.separation);
+            let along = along * dot(u, &pair.separation);
             add_scaled(&mut force, &pair.separation, along);
         }
         force
@@ -90,46 +84,6 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct ViscousTerm<F>(pub F, pub ViscositySource);
 
-impl<const D: usize, F: PairFriction<D>> PairTerm<D> for ViscousTerm<F> {
-    type Bound<'a> = BoundFriction<'a, D, F>;
-
-    fn name(&self) -> String {
-        F::NAME.into()
-    }
-
-    fn access(&self) -> Access {
-        Access::none()
-            .both((fields::VELOCITY, fields::VOLUME, fields::DENSITY))
-            .here(fields::MASS)
-            .where_there(fields::WALL_FRICTION)
-            .and(self.1.access())
-    }
-
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<Self::Bound<'a>, StepError> {
-        let choice = self.0.choice();
-        Ok(BoundFriction {
-            friction: self.0,
-            velocity: world.free.get(fields::VELOCITY)?,
-            volume: world.free.get(fields::VOLUME)?,
-            density: world.free.get(fields::DENSITY)?,
-            mass: world.free.get(fields::MASS)?,
-            viscosity: self.1.bind(world)?,
-            points: &world.walls.points,
-            wall_friction: match world.walls.elements.wall_function.is_empty() {
-                true => &[],
-                false => world.free.get(fields::WALL_FRICTION)?,
-            },
-            elements: &world.walls.elements,
-            contacts: &world.walls.contacts,
-            rubs: rubs(world),
-            open: open(world),
-            corrected: choice.wall_term == WallTerm::Corrected,
-            scale: choice.on_lattice.scale(self.0, world),
-            spacing: world.spacing,
-        })
-    }
-}
-
 /// Numbers of the walls that fluid passes.
 fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
     let mut open: Vec<u32> = world.walls.passed.iter().map(|p| p.wall).collect();
@@ -140,32 +94,43 @@ fn open<const D: usize>(world: &World<D>) -> Vec<u32> {
 /// True if the fluid rubs any wall: all may be free-slip.
 fn rubs<const D: usize>(world: &World<D>) -> bool {
     let (points, elements) = (&world.walls.points, &world.walls.elements);
-    let mut factors = points
-        .friction_factor
-        .iter()
-        .chain(&elements.friction_factor);
-    factors.any(|factor| *factor != 0.0) || elements.wall_function.contains(&true)
+    let rubs = |factors: &[f64]| factors.iter().any(|factor| *factor != 0.0);
+    rubs(&points.friction_factor)
+        || rubs(&elements.friction_factor)
+        || elements.wall_function.contains(&true)
 }
 
 /// [`ViscousTerm`] with its columns.
-pub struct BoundFriction<'a, const D: usize, F> {
+#[pair_term(ViscousTerm<F>, F::NAME)]
+pub struct BoundFriction<'a, const D: usize, F: PairFriction<D>> {
+    #[value(self.0)]
     friction: F,
+    #[both(fields::VELOCITY)]
     velocity: &'a [Vect<D>],
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
+    #[bound(self.1)]
     viscosity: BoundViscosity<'a>,
-    points: &'a WallPoints<D>,
-    /// Of wall functions; empty where no wall has one.
-    wall_friction: &'a [f64],
-    elements: &'a Elements<D>,
-    contacts: &'a Contacts<D>,
+    /// Of wall functions.
+    #[where_there(fields::WALL_FRICTION)]
+    wall_friction: Option<&'a [f64]>,
+    #[value(&world.walls)]
+    walls: &'a WallSet<D>,
     /// True if any wall does: else walls are skipped.
+    #[value(rubs(world))]
     rubs: bool,
     /// Walls that fluid passes: nothing of them is corrected.
+    #[value(open(world))]
     open: Vec<u32>,
+    #[value(self.0.choice().wall_term == WallTerm::Corrected)]
     corrected: bool,
+    #[value(self.0.choice().on_lattice.scale(self.0, world))]
     scale: f64,
+    #[value(world.spacing)]
     spacing: f64,
 }
 
@@ -197,38 +162,8 @@ pub struct Own<const D: usize, L> {
     near: bool,
 }
 
-/// Sums of one particle.
-#[derive(Clone, Copy)]
-pub struct Sum<const D: usize> {
-    /// Σ θ η̄ f.
-    force: Vect<D>,
-    /// Σ θ ½ t·f(t) r_ab; of V F r_ab where the direction does not matter.
-    discrete: Vect<D>,
-    /// 2 Σ η u_t/δr |∇γ_as|.
-    flux: Vect<D>,
-    /// Σ ∇γ_as.
-    gradient: Vect<D>,
-}
-
-impl<const D: usize> Sum<D> {
-    /// Of free neighbours.
-    #[inline(always)]
-    fn new([force, discrete]: [[f64; D]; 2]) -> Self {
-        Sum {
-            force: force.into(),
-            discrete: discrete.into(),
-            flux: Vect::zeros(),
-            gradient: Vect::zeros(),
-        }
-    }
-}
-
-impl<const D: usize, F: PairFriction<D>> PairSum<D> for BoundFriction<'_, D, F> {
-    type Own<L: Lane> = Own<D, L>;
-    /// Σ θ η̄ f and Σ θ ½ t·f(t) r_ab of free neighbours.
-    type Sum<L: Lane> = [[L; D]; 2];
-
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let (mut along, mut near) = ([L::splat(0.0); D], false);
         if self.rubs && self.corrected {
@@ -248,7 +183,7 @@ impl<const D: usize, F: PairFriction<D>> PairSum<D> for BoundFriction<'_, D, F> 
         }
     }
 
-    #[inline(always)]
+    /// Σ θ η̄ f, and Σ θ ½ t·f(t) r_ab, of V F r_ab where the direction does not matter.
     fn pair<L: Lane>(
         &self,
         own: &Own<D, L>,
@@ -268,35 +203,32 @@ impl<const D: usize, F: PairFriction<D>> PairSum<D> for BoundFriction<'_, D, F> 
             add_scaled(discrete, &pair.separation, shear);
         }
     }
-}
 
-impl<const D: usize, F: PairFriction<D>> BoundTerm<D> for BoundFriction<'_, D, F> {
-    #[inline(always)]
-    fn finish(&self, sum: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
+    fn finish(&self, sums: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let here = self.own_values(at.particle);
-        let mut sum = Sum::new(sum);
+        let [mut force, mut discrete] = sums.map(Vect::from);
+        // 2 Σ η u_t/δr |∇γ_as|, and Σ ∇γ_as.
+        let (mut flux, mut gradient) = (Vect::zeros(), Vect::zeros());
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
-                let (share, volume) = (self.points.share[v], self.points.volume[v]);
+                let (share, volume) = (self.walls.points.share[v], self.walls.points.volume[v]);
                 let rubbing = self.rubbing(v, &pair);
-                let relative = here.velocity - self.points.viscous_velocity[v];
-                let force = self.friction.force(here.volume, volume, &relative, &pair);
-                sum.force += force * (rubbing * here.viscosity.eta);
+                let relative = here.velocity - self.walls.points.viscous_velocity[v];
+                let of_pair = self.friction.force(here.volume, volume, &relative, &pair);
+                force += of_pair * (rubbing * here.viscosity.eta);
                 let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
-                sum.discrete += pair.separation * (share * shear);
+                discrete += pair.separation * (share * shear);
             }
             for contact in at.contacts {
-                let s = contact.element as usize;
-                let normal = &self.elements.normal[s];
-                let relative = here.velocity - self.elements.velocity_at(&contact);
-                let tangential = relative - normal * relative.dot(normal);
-                sum.flux += tangential * self.weight(&here, &contact);
+                let normal = &self.walls.elements.normal[contact.element as usize];
+                let relative = here.velocity - self.walls.elements.velocity_at(&contact);
+                flux += (relative - normal * relative.dot(normal)) * self.weight(&here, &contact);
                 if !self.is_open(contact.element) {
-                    sum.gradient += contact.gradient;
+                    gradient += contact.gradient;
                 }
             }
         }
-        let total = sum.force - sum.flux * self.correction(&here, &sum);
+        let total = force - flux * self.correction(&here, discrete, gradient);
         let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
         rates.acceleration += total * scale;
     }

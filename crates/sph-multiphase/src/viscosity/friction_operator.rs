@@ -10,7 +10,6 @@ use crate::linear::{
     coupling_ratio,
 };
 
-/// Matrices of former systems.
 #[derive(Default)]
 pub(crate) struct Matrices<const D: usize> {
     pub scalar: Assembly<f64, D>,
@@ -48,8 +47,7 @@ impl<const D: usize> FrictionOperator<'_, D> {
             RowsOf::Scalar(own, whole) => size_of_val(own) + size_of_val(whole),
             RowsOf::Block(own, whole) => size_of_val(own) + size_of_val(whole),
         };
-        let matrix = self.matrix.get().map_or(0, Matrix::bytes);
-        self.coupling_bytes + rows + matrix
+        self.coupling_bytes + rows + self.matrix.get().map_or(0, Matrix::bytes)
     }
 
     fn written(&self) -> Matrix<D> {
@@ -66,8 +64,7 @@ impl<const D: usize> FrictionOperator<'_, D> {
         assembly: &mut Assembly<E, D>,
         entries: fn(Values<E>) -> Entries<D>,
     ) -> Matrix<D> {
-        let size = [self.couplings.blocks(), own.len()];
-        assembly.fill_blocks(size, |block, rows| {
+        assembly.fill_blocks([self.couplings.blocks(), own.len()], |block, rows| {
             let mut writer = Writer {
                 own,
                 rows,
@@ -144,7 +141,6 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
             RowsOf::Block(own, _) => own.len(),
         }
     }
-
     fn multiply(&self, x: &[Vect<D>], y: &mut [Vect<D>]) {
         let couplings = &self.couplings;
         match self.rows {
@@ -153,35 +149,28 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
         }
         self.space.refresh(y);
     }
-
     fn import(&self, x: &mut [Vect<D>]) {
         self.space.refresh(x);
     }
-
     fn inner(&self, x: &[Vect<D>], y: &[Vect<D>]) -> f64 {
         self.space.inner(x, y)
     }
-
     fn all(&self, holds: bool) -> bool {
         self.space.all(holds)
     }
-
     fn is_whole(&self) -> bool {
         self.space.is_whole()
     }
-
     fn prepared<'a>(&'a self, memory: &'a mut Halves<D>) -> Option<Halved<'a, D>> {
         let whole = self.matrix.get().filter(|_| self.space.is_whole());
         whole.and_then(|matrix| matrix.prepared(memory))
     }
-
     fn diagonal(&self) -> Option<Diagonal<'_, D>> {
         Some(match self.rows {
             RowsOf::Scalar(_, whole) => Diagonal::Scalar(whole),
             RowsOf::Block(_, whole) => Diagonal::Block(whole),
         })
     }
-
     fn stiffness(&self) -> Option<f64> {
         // Rows of copies lack couplings, and are softer than those of their owners.
         let here = match self.rows {
@@ -190,7 +179,6 @@ impl<const D: usize> Operator<D> for FrictionOperator<'_, D> {
         };
         Some(self.space.largest(here))
     }
-
     fn assembled(&self) -> Option<&Matrix<D>> {
         Some(self.matrix.get_or_init(|| self.written()))
     }

@@ -13,7 +13,6 @@ use sph_neighbours::World;
 
 use crate::linear::{LinearSolver, LowRank, Operator, TimeScheme};
 use crate::viscosity::body_response::Bodies;
-use crate::viscosity::start::{Start, put};
 use crate::viscosity::{Coupling, FrictionSystem, Solves};
 
 /// Residual of a solve within an outer iteration, over the tolerance of the latter.
@@ -108,8 +107,7 @@ impl<const D: usize> ImplicitViscosity<D> {
             if self.lagged.stiffens {
                 stiffen(world, &mut self.plain)?;
             }
-            let known = [earlier, &ahead];
-            let solved = self.solve(world, known, again, (&mut velocity, None), dt);
+            let solved = self.solve(world, [earlier, &ahead], again, (&mut velocity, None), dt);
             if self.lagged.stiffens {
                 unstiffen(world, &mut self.plain)?;
             }
@@ -121,11 +119,11 @@ impl<const D: usize> ImplicitViscosity<D> {
             self.velocity = velocity;
             iterations += 1;
         }
-        if self.lagged.stiffens && !self.lagged.stages.is_empty() {
-            let held = self.solves.held_back.get_or_insert_default();
-            held.add(world, &ahead, dt)?;
-        }
         if !self.lagged.stages.is_empty() {
+            if self.lagged.stiffens {
+                let held = self.solves.held_back.get_or_insert_default();
+                held.add(world, &ahead, dt)?;
+            }
             let converged = change <= outer.tolerance;
             let change = if change.is_finite() { change } else { 0.0 };
             let outer = self.solves.outer.get_or_insert_default();
@@ -196,26 +194,18 @@ impl<const D: usize> ImplicitViscosity<D> {
             }
         }
         let vectors = bodies.map_or(Vec::new(), |all| all.bind(&operator, &mut right, dt));
-        let update = LowRank {
+        let whole = LowRank {
             base: &operator,
             vectors: &vectors,
             sign: -1.0,
         };
-        let whole: &dyn Operator<D> = if vectors.is_empty() {
-            &operator
-        } else {
-            &update
-        };
         let start = Instant::now();
-        let solved = match self.lagged.stages.is_empty() {
-            true => self.solver.solve(whole, &right, velocity),
-            false => {
-                // A tolerance below that of the outer iteration gains nothing.
-                let enough = INNER * self.scheme.outer().tolerance;
-                let solver = &mut self.solver;
-                solver.solve_roughly(whole, &right, velocity, enough)
-            }
+        // A tolerance below that of the outer iteration gains nothing.
+        let enough = match self.lagged.stages.is_empty() {
+            true => 0.0,
+            false => INNER * self.scheme.outer().tolerance,
         };
+        let solved = self.solver.solve_to((&whole, &right, velocity), enough);
         let bytes = operator.bytes();
         drop(operator);
         system.right = right;
@@ -310,7 +300,6 @@ fn stiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result
     Ok(world.free.put(fields::VISCOSITY, stiff)?)
 }
 
-/// Puts the viscosities back that [`stiffen`] has kept.
 fn unstiffen<const D: usize>(world: &mut World<D>, plain: &mut Vec<f64>) -> Result<(), StepError> {
     std::mem::swap(plain, world.free.get_mut(fields::VISCOSITY)?);
     Ok(())
@@ -333,4 +322,44 @@ fn relative_change<const D: usize>(
         true => (sums[0] / sums[1]).sqrt(),
         false => 0.0,
     })
+}
+
+#[derive(Default)]
+pub(crate) struct Start<const D: usize> {
+    /// K uⁿ, with the mass.
+    pub image: Vec<Vect<D>>,
+    ahead: Vec<Vect<D>>,
+    image_ahead: Vec<Vect<D>>,
+    missing: Vec<Vect<D>>,
+}
+
+impl<const D: usize> Start<D> {
+    /// The best start on the line from uⁿ to u*, in the norm of the matrix: where friction balances the
+    /// other forces it is uⁿ, where there is little of it u*. `image` is there already.
+    pub fn between(
+        &mut self,
+        (operator, right): (&dyn Operator<D>, &[Vect<D>]),
+        earlier: &[Vect<D>],
+        velocity: &mut [Vect<D>],
+    ) {
+        let ahead = velocity.iter().zip(earlier).map(|(u, e)| u - e);
+        put(&mut self.ahead, ahead);
+        self.image_ahead.resize(self.ahead.len(), Vect::zeros());
+        operator.multiply(&self.ahead, &mut self.image_ahead);
+        let missing = right.iter().zip(&self.image).map(|(b, a)| b - a);
+        put(&mut self.missing, missing);
+        let along = operator.inner(&self.ahead, &self.missing);
+        let curvature = operator.inner(&self.ahead, &self.image_ahead);
+        let part = match curvature > 0.0 {
+            true => along / curvature,
+            false => 0.0,
+        };
+        let both = velocity.iter_mut().zip(earlier).zip(&self.ahead);
+        both.for_each(|((u, e), a)| *u = e + a * part);
+    }
+}
+
+pub(crate) fn put<T>(to: &mut Vec<T>, from: impl Iterator<Item = T>) {
+    to.clear();
+    to.extend(from);
 }

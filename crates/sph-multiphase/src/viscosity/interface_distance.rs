@@ -5,48 +5,23 @@ use sph_core::{Access, Field, Scalar, Stage, fields, stage};
 use sph_kernels::Sampler;
 use sph_neighbours::{Around, Values, World, walk_into};
 
-/// Distance of a particle from the interface of its phase; the support's radius where there is
-/// none in reach.
+/// Distance of a particle from the interface of its phase; the support's radius where there is none in reach.
 pub const INTERFACE_DISTANCE: Field<Scalar> =
     Field::new("interface_distance", "m", "distance from the next phase");
 
 /// Least distance over the support's radius: no particle is on the interface itself.
 const LEAST: f64 = 1e-3;
 
-/// Particles with another phase within the reach of their list; phases change with the lists only.
-#[derive(Default)]
-struct InterfaceParticles {
-    built_for: u64,
-    near: Vec<bool>,
-}
-
-impl InterfaceParticles {
-    fn refresh<const D: usize>(&mut self, world: &World<D>, phase: &[u32]) {
-        if self.built_for == world.lists.builds && self.near.len() == phase.len() {
-            return;
-        }
-        self.built_for = world.lists.builds;
-        let lists = &world.lists.free;
-        let near = |i: usize| {
-            lists
-                .candidates(i)
-                .iter()
-                .any(|&j| phase[j as usize] != phase[i])
-        };
-        let all = (0..phase.len()).into_par_iter().with_min_len(1024);
-        all.map(near).collect_into_vec(&mut self.near);
-    }
-}
-
 /// d from c(d) = Σ_other V w / Σ V w, c being the share of the kernel beyond a plane at d.
 ///
-/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved
-/// interfaces to δr²/R.
+/// On a lattice with h = 2δr the distance of the first rows is met to 1 % of δr; at curved interfaces to δr²/R.
 pub(super) fn interface_distance<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .both((fields::POSITION, fields::VOLUME, fields::PHASE))
         .writes(INTERFACE_DISTANCE);
-    let (mut beyond, mut mixed) = (None, InterfaceParticles::default());
+    let mut beyond = None;
+    // Particles with another phase within the reach of their list; phases change with the lists only.
+    let (mut builds, mut mixed) = (0, Vec::new());
     let name = "distance from the interface";
     stage(name, access, move |world: &mut World<D>| {
         let mut distance = world.free.take(INTERFACE_DISTANCE)?;
@@ -55,9 +30,13 @@ pub(super) fn interface_distance<const D: usize>() -> impl Stage<World<D>> {
         let own = kernel.value_at_zero();
         let beyond = beyond.get_or_insert_with(|| KernelTail::new(kernel));
         let lists = world.lists.nearest();
-        mixed.refresh(world, phase);
-        let mixed = &mixed.near;
         let unlike = |i: usize, j: &u32| phase[*j as usize] != phase[i];
+        if builds != world.lists.builds || mixed.len() != phase.len() {
+            builds = world.lists.builds;
+            let all = (0..phase.len()).into_par_iter().with_min_len(1024);
+            let near = |i| world.lists.free.candidates(i).iter().any(|j| unlike(i, j));
+            all.map(near).collect_into_vec(&mut mixed);
+        }
         let near = |i: usize| mixed[i] && lists.candidates(i).iter().any(|j| unlike(i, j));
         // First the shares, where they differ from 0.
         distance.fill(0.0);
@@ -141,8 +120,7 @@ mod tests {
     #[test]
     fn the_table_is_inverted_to_1e_4_of_the_radius() {
         for dimension in [2, 3] {
-            let kernel = wendland_c2().sampler(dimension, 0.5);
-            let beyond = KernelTail::new(&*kernel);
+            let beyond = KernelTail::new(&*wendland_c2().sampler(dimension, 0.5));
             assert_eq!(beyond.share[0], 0.5);
             for k in 0..=100 {
                 let d = 0.0085 * f64::from(k);

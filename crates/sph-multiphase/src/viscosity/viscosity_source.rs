@@ -133,13 +133,11 @@ impl BoundViscosity<'_> {
         if !L::splat(0.0).any_less(unlike) {
             return alike;
         }
-        let distance = L::splat(layers.distance[j]);
-        let mixed = in_series(here.distance, here.eta, distance, there);
+        let mixed = in_series(here.distance, here.eta, L::splat(layers.distance[j]), there);
         unlike.where_positive(mixed, alike)
     }
 }
 
-/// Mean of a pair of one phase.
 #[inline(always)]
 fn mean<L: Lane>(within: Within, eta: L, other: L) -> L {
     match within {

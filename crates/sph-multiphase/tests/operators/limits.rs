@@ -2,7 +2,7 @@
 
 use sph_contribution::Limiter;
 use sph_core::{Vect, fields};
-use sph_multiphase::{Formulation, HuAdams, InterfaceLimit};
+use sph_multiphase::{Formulation, HuAdams, interface_limit};
 use sph_neighbours::World;
 use sph_rheology::state::{EquationOfState, Linear, Reference};
 
@@ -65,20 +65,20 @@ fn fastest(mixture: &mut World<2>) -> f64 {
     swing
 }
 
-fn limit(densities: [f64; 2], sounds: [f64; 2]) -> Option<InterfaceLimit> {
+fn limit(densities: [f64; 2], sounds: [f64; 2]) -> Option<impl Limiter<2>> {
     let law = |k: usize| {
         Linear::default().bind(Reference {
             density: densities[k],
             sound_speed: sounds[k],
         })
     };
-    InterfaceLimit::new(&[law(0), law(1)])
+    interface_limit(&[law(0), law(1)])
 }
 
 /// ωΔt of the fastest swing at the limit.
 fn at_the_limit(mixture: &mut World<2>) -> f64 {
     let limit = limit([1.0, LIGHT], [SOUND; 2]).unwrap();
-    fastest(mixture) * Limiter::<2>::limit(&limit, mixture).unwrap().dt
+    fastest(mixture) * limit.limit(mixture).unwrap().dt
 }
 
 /// Half of all, at random, and one in ten of either: ωΔt at the limit is 1.22, 1.32, 1.03. The theory of a

@@ -7,6 +7,7 @@ use sph_multiphase::linear::{
     Automatic, Bicgstab, Cholesky, ConjugateGradient, Entries, LinearSolver, Matrix, Operator,
     Pattern, Preconditioner, SolveError,
 };
+use sph_neighbours::inner;
 
 use crate::systems::{apart, dense, right};
 
@@ -21,7 +22,7 @@ struct Board {
     sums: Mutex<[f64; 2]>,
 }
 
-/// Half of a ring of particles, each coupled to the next; two ghosts stand for the ends of the other half.
+/// Half of a ring of particles, each coupled to the next; the last two rows are copies of the ends of the other half.
 struct HalfRing<'b> {
     rank: usize,
     board: &'b Board,
@@ -30,10 +31,6 @@ struct HalfRing<'b> {
 
 impl Operator<2> for HalfRing<'_> {
     fn rows(&self) -> usize {
-        ROWS
-    }
-
-    fn columns(&self) -> usize {
         ROWS + 2
     }
 
@@ -45,20 +42,25 @@ impl Operator<2> for HalfRing<'_> {
         self.board.barrier.wait();
     }
 
-    fn total(&self, part: f64) -> f64 {
-        self.board.sums.lock().expect("sums")[self.rank] = part;
+    fn inner(&self, x: &[Vect<2>], y: &[Vect<2>]) -> f64 {
+        self.board.sums.lock().expect("sums")[self.rank] = inner(&x[..ROWS], &y[..ROWS]);
         self.board.barrier.wait();
         let [a, b] = *self.board.sums.lock().expect("sums");
         self.board.barrier.wait();
         a + b
     }
 
+    fn is_whole(&self) -> bool {
+        false
+    }
+
     fn multiply(&self, x: &[Vect<2>], y: &mut [Vect<2>]) {
-        for (i, y) in y.iter_mut().enumerate() {
+        for (i, y) in y[..ROWS].iter_mut().enumerate() {
             let before = if i == 0 { x[ROWS] } else { x[i - 1] };
             let after = if i + 1 == ROWS { x[ROWS + 1] } else { x[i + 1] };
             *y = x[i] * DIAGONAL - before - after;
         }
+        self.import(y);
     }
 
     fn assembled(&self) -> Option<&Matrix<2>> {
@@ -66,8 +68,8 @@ impl Operator<2> for HalfRing<'_> {
     }
 }
 
-/// The entries of a chain, or of a ring.
-fn chain(rows: u32, closed: bool) -> Matrix<2> {
+/// The entries of a chain, or of a ring, and of rows without neighbours after it.
+fn chain(rows: u32, closed: bool, alone: usize) -> Matrix<2> {
     let neighbours = |i: u32| {
         let mut row: Vec<u32> = [i.checked_sub(1), (i + 1 < rows).then_some(i + 1)]
             .into_iter()
@@ -80,7 +82,8 @@ fn chain(rows: u32, closed: bool) -> Matrix<2> {
         }
         row
     };
-    let rows: Vec<_> = (0..rows).map(neighbours).collect();
+    let alone = std::iter::repeat_n(Vec::new(), alone);
+    let rows: Vec<_> = (0..rows).map(neighbours).chain(alone).collect();
     let others = rows.iter().map(Vec::len).sum();
     let entries = Entries::scalar(vec![DIAGONAL; rows.len()], vec![-1.0; others]);
     Matrix::new(Pattern::from_rows(&rows), entries)
@@ -98,15 +101,17 @@ fn solved(
     };
     let b = right(2 * ROWS);
     let half = |rank: usize| {
-        let own = assembled.then(|| chain(ROWS as u32, false));
+        let own = assembled.then(|| chain(ROWS as u32, false, 2));
         let half = HalfRing {
             rank,
             board: &board,
             own,
         };
-        let mut x = vec![Vect::zeros(); ROWS];
-        let b = &b[rank * ROWS..(rank + 1) * ROWS];
-        let report = solver().solve(&half, b, &mut x).expect("a solution");
+        let mut x = vec![Vect::zeros(); ROWS + 2];
+        let mut b = [&b[rank * ROWS..(rank + 1) * ROWS], &[Vect::zeros(); 2]].concat();
+        half.import(&mut b);
+        let report = solver().solve(&half, &b, &mut x).expect("a solution");
+        x.truncate(ROWS);
         (x, report.iterations)
     };
     std::thread::scope(|threads| {
@@ -120,7 +125,7 @@ fn solved(
 
 #[test]
 fn two_hands_with_half_of_the_rows_each_find_the_solution_of_the_whole() {
-    let matrix = chain(2 * ROWS as u32, true);
+    let matrix = chain(2 * ROWS as u32, true, 0);
     let exact = dense(&matrix, &right(2 * ROWS));
     let plain = ConjugateGradient {
         preconditioner: Preconditioner::None,

@@ -16,7 +16,7 @@ const WORTH: f64 = 1.2;
 const ROOMY: f64 = 4.0;
 /// Largest Mach number of a flow whose density hardly moves.
 const LIQUID: f64 = 0.1;
-/// The bound of sound, by the name that [`SoundLimit`](sph_contribution::SoundLimit) gives it.
+/// The bound of sound, by the name that [`sound_limit`](sph_contribution::sound_limit) gives it.
 const SOUND: &str = "sound";
 
 /// Cost of a run, and its reasons.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_contribution::integrators::Integrator;
-use sph_contribution::{ForceLimit, MotionLimit, Part, PluginInForce, Setting};
+use sph_contribution::{Part, PluginInForce, Setting, force_limit, motion_limit};
 use sph_core::{Inserted, Role, Store, fields};
 use sph_multiphase::{Diffused, Formulation};
 use sph_neighbours::World;
@@ -232,12 +232,10 @@ impl<const D: usize> PlanInput<'_, D> {
             shown: self.shown,
         };
         let mut planned = planning.plan(parts)?;
-        planned.offer.limiter(ForceLimit {
-            coefficient: coefficients.force,
-        });
+        planned.offer.limiter(force_limit(coefficients.force));
         let mut walls = self.scene.wall.values();
         if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned.offer.limiter(MotionLimit { share: WAY });
+            planned.offer.limiter(motion_limit(WAY));
         }
         Ok(planned)
     }

@@ -46,8 +46,8 @@ impl OnLattice {
     /// Factor of an operator.
     pub fn scale<const D: usize, F: PairFriction<D>>(self, friction: F, world: &World<D>) -> f64 {
         let response = match self {
-            OnLattice::Exact => lattice_sum(world, |pair| sheared(friction, world, pair)),
-            OnLattice::Rows => rows_sum(world, |pair| sheared(friction, world, pair)),
+            OnLattice::Exact => lattice_sum(world, |pair| shear(friction, world, pair)),
+            OnLattice::Rows => rows_sum(world, |pair| shear(friction, world, pair)),
             OnLattice::Literal => return 1.0,
         };
         match response > 0.0 {
@@ -59,11 +59,7 @@ impl OnLattice {
 }
 
 /// The sum of a lattice with the scene's spacing and kernel gives for u = (y², 0, …), over the exact sum 2.
-fn sheared<const D: usize, F: PairFriction<D>>(
-    friction: F,
-    world: &World<D>,
-    pair: &Pair<D>,
-) -> f64 {
+fn shear<const D: usize, F: PairFriction<D>>(friction: F, world: &World<D>, pair: &Pair<D>) -> f64 {
     let cell = world.spacing.powi(D as i32);
     let mut relative = Vect::zeros();
     relative[0] = -pair.separation[1] * pair.separation[1];

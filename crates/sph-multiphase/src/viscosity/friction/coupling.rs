@@ -5,7 +5,7 @@ use sph_neighbours::{
     Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
 };
 
-use super::{BoundFriction, OwnValues, PairFriction, Sum, ViscousTerm};
+use super::{BoundFriction, OwnValues, PairFriction, ViscousTerm};
 use crate::linear::{Block, Entry};
 use crate::viscosity::{BoundCoupling, Coupling, CouplingRow, OwnViscosity, WithCoupling};
 
@@ -47,15 +47,15 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         let (mut wall, mut source) = (E::ZERO, Vect::zeros());
         for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [even, along] = self.at_point(&here, self.points.volume[v], &pair, rubbing);
+            let [even, along] = self.at_point(&here, self.walls.points.volume[v], &pair, rubbing);
             let friction = E::central(even, along, &pair.separation);
             wall = wall + friction;
-            source += friction.apply(&self.points.viscous_velocity[v]);
+            source += friction.apply(&self.walls.points.viscous_velocity[v]);
         }
         let correction = self.correction_of(&here, rows);
         for contact in rows.contacts {
-            let normal = &self.elements.normal[contact.element as usize];
-            let moving = self.elements.velocity_at(&contact);
+            let normal = &self.walls.elements.normal[contact.element as usize];
+            let moving = self.walls.elements.velocity_at(&contact);
             let friction = correction * self.weight(&here, &contact);
             let (friction, drawn) = at_element(&here, normal, moving, friction);
             wall = wall + friction;
@@ -72,24 +72,23 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         if here.nearest.is_none() {
             return 1.0;
         }
-        let mut sum = Sum::<D>::new([[0.0; D]; 2]);
+        let (mut discrete, mut gradient) = (Vect::zeros(), Vect::zeros());
         let volume = here.volume;
         for (j, pair) in rows.free.pairs() {
             let there = self.volume[j];
-            let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * shear;
+            discrete += pair.separation * self.friction.shear(volume, there, &here.along, &pair);
         }
         for (v, pair) in rows.wall.pairs() {
-            let there = self.points.volume[v];
+            let there = self.walls.points.volume[v];
             let shear = self.friction.shear(volume, there, &here.along, &pair);
-            sum.discrete += pair.separation * (self.points.share[v] * shear);
+            discrete += pair.separation * (self.walls.points.share[v] * shear);
         }
         for contact in rows.contacts {
             if !self.is_open(contact.element) {
-                sum.gradient += contact.gradient;
+                gradient += contact.gradient;
             }
         }
-        self.correction(here, &sum)
+        self.correction(here, discrete, gradient)
     }
 }
 
@@ -132,22 +131,18 @@ impl<const D: usize, F: PairFriction<D>> BoundCoupling<D> for BoundFriction<'_, 
             along: F::DIRECTIONAL,
         }
     }
-
     fn strengths(&self, cluster: &Cluster<'_, D>, out: &mut Vec<f64>) {
         cluster.numbers(self, out);
     }
-
     fn walls_need_neighbours(&self, particle: usize) -> bool {
         self.nearest(particle).is_some()
     }
-
     fn scalar_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<f64, D> {
         self.walls(rows, |here, normal, moving, friction| {
             let leaving = (here.velocity - moving).dot(normal);
             (friction, moving + normal * leaving)
         })
     }
-
     fn block_walls(&self, rows: &Neighbourhood<'_, D>) -> CouplingRow<Block<D>, D> {
         self.walls(rows, |_, normal, moving, friction| {
             let along = Block::identity() - normal * normal.transpose();

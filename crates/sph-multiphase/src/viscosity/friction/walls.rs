@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_neighbours::{Contact, Pair, Particles};
 
-use super::{BoundFriction, OwnValues, PairFriction, Sum};
+use super::{BoundFriction, OwnValues, PairFriction};
 
 /// κ is left at 1 where |∇γ| δr is below this: opposite walls, or the edge of the support.
 const FAINT: f64 = 1e-3;
@@ -15,10 +15,12 @@ const LEAST_DISTANCE: f64 = 0.5;
 const BOUNDS: [f64; 2] = [0.0, 4.0];
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// True if fluid passes an element.
     #[inline(always)]
     pub(super) fn is_open(&self, element: u32) -> bool {
-        !self.open.is_empty() && self.open.contains(&self.elements.wall[element as usize])
+        !self.open.is_empty()
+            && self
+                .open
+                .contains(&self.walls.elements.wall[element as usize])
     }
 
     /// Normal and distance of the element with the largest mean kernel, the nearest one.
@@ -28,12 +30,12 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             return None;
         }
         let mean = |c: &Contact<D>| {
-            let measure = self.elements.measure[c.element as usize];
+            let measure = self.walls.elements.measure[c.element as usize];
             c.gradient.norm_squared() / (measure * measure)
         };
         let mut nearest = None;
         let mut largest = 0.0;
-        for contact in self.contacts.of_particle(i) {
+        for contact in self.walls.contacts.of_particle(i) {
             let mean = mean(&contact);
             if mean > largest && !self.is_open(contact.element) {
                 largest = mean;
@@ -48,25 +50,25 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
     pub(super) fn weight(&self, here: &OwnValues<D>, contact: &Contact<D>) -> f64 {
         let s = contact.element as usize;
         // A phase that the wall function is not for has none, and the condition of the wall.
-        if self.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
+        if self.walls.elements.wall_function.get(s) == Some(&true) && here.wall_friction > 0.0 {
             return 2.0 * here.wall_friction * contact.gradient.norm();
         }
-        let slip = self.elements.slip.get(s).copied().unwrap_or(0.0);
-        let distance = self.distance(here, contact, &self.elements.normal[s]) + slip;
+        let slip = self.walls.elements.slip.get(s).copied().unwrap_or(0.0);
+        let distance = self.distance(here, contact, &self.walls.elements.normal[s]) + slip;
         // κ holds whatever the pair formula makes of volumes and strength.
         let factor = match here.nearest {
             Some(_) => 1.0,
             None => self.friction.at_element(here.volume, contact.volume),
         };
-        let friction_factor = self.elements.friction_factor[s];
+        let friction_factor = self.walls.elements.friction_factor[s];
         2.0 * factor * friction_factor * here.viscosity.eta * contact.gradient.norm() / distance
     }
 
     /// Share of a wall point's friction that counts.
     #[inline(always)]
     pub(super) fn rubbing(&self, v: usize, pair: &Pair<D>) -> f64 {
-        let mut rubbing = self.points.share[v] * self.points.friction_factor[v];
-        if let Some((slip, normal)) = self.points.slip.get(v) {
+        let mut rubbing = self.walls.points.share[v] * self.walls.points.friction_factor[v];
+        if let Some((slip, normal)) = self.walls.points.slip.get(v) {
             // At the wall the fluid goes with the share λ/(d + λ) of the velocity at d.
             let distance = pair.separation.dot(normal).max(self.spacing);
             rubbing *= distance / (distance + slip);
@@ -74,24 +76,19 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         rubbing
     }
 
-    /// κ.
+    /// κ from Σ θ ½ t·f(t) r and G = Σ ∇γ_as.
     #[inline(always)]
-    pub(super) fn correction(&self, here: &OwnValues<D>, sum: &Sum<D>) -> f64 {
-        let squared = sum.gradient.norm_squared();
+    pub(super) fn correction(&self, here: &OwnValues<D>, sum: Vect<D>, gradient: Vect<D>) -> f64 {
+        let squared = gradient.norm_squared();
         match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
-            true => (sum.discrete.dot(&sum.gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
+            true => (sum.dot(&gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
             false => 1.0,
         }
     }
 
     /// Over which the velocity falls to that of an element.
     #[inline(always)]
-    pub(super) fn distance(
-        &self,
-        here: &OwnValues<D>,
-        contact: &Contact<D>,
-        normal: &Vect<D>,
-    ) -> f64 {
+    fn distance(&self, here: &OwnValues<D>, contact: &Contact<D>, normal: &Vect<D>) -> f64 {
         let Some((nearest, distance)) = &here.nearest else {
             return contact.distance.max(self.spacing);
         };
@@ -109,8 +106,8 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         let Some(nearest) = nearest.filter(|_| F::DIRECTIONAL) else {
             return Vect::zeros();
         };
-        let slip = self.velocity[i] - self.elements.velocity_at(nearest);
-        let normal = &self.elements.normal[nearest.element as usize];
+        let slip = self.velocity[i] - self.walls.elements.velocity_at(nearest);
+        let normal = &self.walls.elements.normal[nearest.element as usize];
         let slip = slip - normal * slip.dot(normal);
         slip.try_normalize(0.0).unwrap_or_else(Vect::zeros)
     }
@@ -123,9 +120,9 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             viscosity: self.viscosity.own(Particles::one(i)),
             volume: self.volume[i],
             specific_volume: self.volume[i] / self.mass[i],
-            wall_friction: self.wall_friction.get(i).copied().unwrap_or(0.0),
+            wall_friction: self.wall_friction.map_or(0.0, |all| all[i]),
             along: self.slip(i, nearest.as_ref()),
-            nearest: nearest.map(|c| (self.elements.normal[c.element as usize], c.distance)),
+            nearest: nearest.map(|c| (self.walls.elements.normal[c.element as usize], c.distance)),
         }
     }
 }
