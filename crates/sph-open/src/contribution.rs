@@ -174,20 +174,15 @@ pub(crate) struct FacePassing<const D: usize> {
 impl<const D: usize> FacePassing<D> {
     fn columns(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .here(fields::VELOCITY)
-            .here(fields::MASS)
-            .here(fields::DENSITY)
-            .here(fields::RENORMALISATION)
-            .here(fields::IDENTITY)
+            .both((fields::POSITION, fields::VOLUME))
+            .here((fields::VELOCITY, fields::MASS, fields::DENSITY))
+            .here((fields::RENORMALISATION, fields::IDENTITY))
             .writes(fields::VELOCITY)
             .where_there(fields::PHASE);
         match self.summed {
             false => access,
             true => access
-                .here(OPEN_FLUX)
-                .here(fields::DENSITY_CONSTANT)
+                .here((OPEN_FLUX, fields::DENSITY_CONSTANT))
                 .remembers(OPEN_FLUX)
                 .writes(fields::DENSITY_CONSTANT),
         }

@@ -133,8 +133,7 @@ impl<const D: usize> Faces<D> {
         &self,
         world: &World<D>,
     ) -> Result<Vec<(u32, f64, LeavingParticle<D>)>, StepError> {
-        let position = world.free.get(fields::POSITION)?;
-        let identity = world.free.get(fields::IDENTITY)?;
+        let (position, identity) = world.free.all((fields::POSITION, fields::IDENTITY))?;
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();

@@ -6,22 +6,23 @@ use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::World;
 
-use super::contract::{
+use super::columns::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
     SoilPhase,
 };
 use super::drainage::{Drainage, Scratch};
-use super::effective::PlasticShare;
+use super::effective::plastic_shares;
 use super::surface::{Outlet, SurfaceDistance, feeds, outlets};
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
+use crate::stress::LawInputs;
 
 /// Packing and excess pressure of the pores of a soil.
 pub(crate) struct PoreFlow {
     pub soil: SoilPhase,
     pub law: Option<Arc<dyn Dilatancy>>,
     /// Of a soil with an elastic part.
-    pub plastic: Option<PlasticShare>,
+    pub plastic: Option<LawInputs>,
     /// `None` if the fluid passes freely.
     pub drainage: Option<Drainage>,
     pub swelling: Option<Swelling>,
@@ -39,32 +40,23 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         let mut access = self
             .soil
             .access()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .both(PACKING)
+            .both((fields::POSITION, fields::VOLUME, PACKING))
             .both(EXCESS_PORE_PRESSURE)
-            .here(DRAINED_PRESSURE)
-            .here(EARLIER_DRAINED_PRESSURE)
-            .here(GRAIN_VOLUME)
+            .here((DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME))
             .here(fields::IDENTITY)
-            .writes(PACKING)
-            .writes(EXCESS_PORE_PRESSURE)
-            .writes(EARLIER_DRAINED_PRESSURE);
+            .writes((PACKING, EXCESS_PORE_PRESSURE, EARLIER_DRAINED_PRESSURE));
         if self.law.is_some() {
             access = access.here(fields::STRAIN_RATE);
             if let Some(plastic) = &self.plastic {
-                access = access.and(plastic.access());
+                access = access.and(plastic.access()).here(fields::ELASTIC_STRESS);
             }
         }
         match self.swelling.is_some() {
             false => access,
             true => access
-                .both(fields::MASS)
-                .both(fields::VELOCITY)
+                .both((fields::MASS, fields::VELOCITY))
                 .here(fields::DENSITY)
-                .writes(fields::MASS)
-                .writes(fields::VELOCITY)
-                .writes(self.density)
+                .writes((fields::MASS, fields::VELOCITY, self.density))
                 .rings(3),
         }
     }
@@ -124,7 +116,7 @@ impl PoreFlow {
         let Some(plastic) = &self.plastic else {
             return Ok(rates.to_vec());
         };
-        let both = rates.iter().zip(plastic.shares(world)?);
+        let both = rates.iter().zip(plastic_shares(plastic, world)?);
         Ok(both.map(|(rate, share)| rate * share).collect())
     }
 
@@ -137,8 +129,7 @@ impl PoreFlow {
     ) -> Result<(), StepError> {
         let soil = self.soil.mask(world)?;
         let strain_rate = self.strain_rates(world)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let packing = world.free.get(PACKING)?;
+        let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
         let drained = world.free.get(DRAINED_PRESSURE)?;
         scratch.growth.clear();
         scratch.growth.extend((0..volume.len()).map(|i| {
@@ -198,14 +189,12 @@ impl PoreFlow {
         dt: f64,
         scratch: &mut Scratch,
     ) -> Result<(), StepError> {
-        let skeleton = &drainage.skeleton;
+        let darcy = &drainage.darcy;
         let mut earlier = world.free.take(EARLIER_DRAINED_PRESSURE)?;
         let soil = self.soil.mask(world)?;
         let strain_rate = self.strain_rates(world)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let packing = world.free.get(PACKING)?;
-        let drained = world.free.get(DRAINED_PRESSURE)?;
-        let excess = world.free.get(EXCESS_PORE_PRESSURE)?;
+        let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
+        let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
         let Scratch {
             mobility,
             storage,
@@ -226,7 +215,7 @@ impl PoreFlow {
                 true => drained[i],
                 false => earlier[i],
             };
-            let pressure = (before + skeleton.load - excess[i]).max(0.0);
+            let pressure = (before + darcy.load - excess[i]).max(0.0);
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);
             let dilation = self.dilation(packing[i], rate, pressure);
             let modulus = self.law.as_ref().map_or(drainage.contacts, |law| {
@@ -238,7 +227,7 @@ impl PoreFlow {
             storage[i] = stored - v * dilation.slope;
             let constant = dilation.rate + dilation.slope * (gain + excess[i]);
             source[i] = stored * (excess[i] + gain) - v * constant;
-            mobility[i] = skeleton.permeability.at(packing[i]) / skeleton.viscosity;
+            mobility[i] = darcy.permeability(packing[i]) / darcy.viscosity;
             earlier[i] = drained[i];
         }
         diagonal.copy_from_slice(storage);

@@ -18,10 +18,8 @@ pub(super) fn shear<const D: usize>(
     world: &World<D>,
     bed: &Bed,
 ) -> Result<Vec<[f64; 2]>, StepError> {
-    let friction = world.free.get(fields::WALL_FRICTION)?;
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let density = world.free.get(fields::DENSITY)?;
-    let volume = world.free.get(fields::VOLUME)?;
+    let (friction, velocity) = world.free.all((fields::WALL_FRICTION, fields::VELOCITY))?;
+    let (density, volume) = world.free.all((fields::DENSITY, fields::VOLUME))?;
     let (walls, owned) = (&world.walls, world.owned());
     let elements = &walls.elements;
     let own = |element: usize| elements.wall[element] == bed.walls[0];

@@ -274,9 +274,7 @@ impl<const D: usize> StepHook<D> for BedLoad {
     }
     fn access(&self) -> Access {
         Access::none()
-            .here(fields::WALL_FRICTION)
-            .here(fields::VELOCITY)
-            .here(fields::DENSITY)
+            .here((fields::WALL_FRICTION, fields::VELOCITY, fields::DENSITY))
             .here(fields::VOLUME)
     }
     fn phases(&self) -> &'static [StepPhase] {

@@ -43,19 +43,11 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     }
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::VOLUME)
-            .both(fields::PHASE)
-            .both(fields::VELOCITY)
-            .both(fields::MASS)
-            .here(SEEPAGE_VELOCITY)
-            .here(SEEPAGE_PRESSURE)
-            .here(fields::IDENTITY)
-            .writes(fields::VELOCITY)
-            .writes(fields::MASS)
-            .writes(self.density)
-            .remembers(SEEPAGE_VELOCITY)
-            .remembers(SEEPAGE_PRESSURE)
+            .both((fields::PRESSURE, fields::VOLUME, fields::PHASE))
+            .both((fields::VELOCITY, fields::MASS))
+            .here((SEEPAGE_VELOCITY, SEEPAGE_PRESSURE, fields::IDENTITY))
+            .writes((fields::VELOCITY, fields::MASS, self.density))
+            .remembers((SEEPAGE_VELOCITY, SEEPAGE_PRESSURE))
             // Links go by depths, which are sums over neighbours, and so do sizes that are evened out.
             .rings(2)
     }
@@ -112,8 +104,7 @@ impl<const D: usize> Seeps<D> {
 
     /// All particles in the soil, and the water particles that have soil in reach.
     fn net(&self, world: &World<D>, dt: f64) -> Result<Net<D>, StepError> {
-        let phase = world.free.get(fields::PHASE)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
         let shares = |wanted: &(dyn Fn(usize) -> bool + Sync)| {
             walk_some(world, sph_neighbours::Values::Both, wanted, |around| {
                 self.depth(phase, volume, world.kernel.value_at_zero(), around)
@@ -238,8 +229,7 @@ impl<const D: usize> Seeps<D> {
     /// particles are given.
     fn pressures(&mut self, world: &mut World<D>, net: &Net<D>) -> Result<Vec<f64>, StepError> {
         let mut seeping = world.free.take(SEEPAGE_PRESSURE)?;
-        let phase = world.free.get(fields::PHASE)?;
-        let present = world.free.get(fields::PRESSURE)?;
+        let (phase, present) = world.free.all((fields::PHASE, fields::PRESSURE))?;
         let soil = |i: u32| phase[i as usize] == self.phase.soil;
         let mut row = vec![u32::MAX; phase.len()];
         let grounds = net.particles.iter().filter(|i| soil(**i));

@@ -96,8 +96,7 @@ impl<const D: usize> PairTerm<D> for AdjointDivergence {
 
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::CARRIED_STRESS)
-            .both(fields::STRESS_CORRECTION)
+            .both((fields::CARRIED_STRESS, fields::STRESS_CORRECTION))
             .both(fields::VOLUME)
             .here(fields::MASS)
     }

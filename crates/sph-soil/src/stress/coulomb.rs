@@ -105,12 +105,9 @@ impl<const D: usize> StepHook<D> for CoulombFriction {
     fn access(&self) -> Access {
         Access::none()
             .both(fields::POSITION)
-            .here(self.pressure)
-            .here(fields::PRESSURE)
-            .here(fields::VOLUME)
+            .here((self.pressure, fields::PRESSURE, fields::VOLUME))
             .here(fields::MASS)
-            .where_there(fields::PHASE)
-            .where_there(fields::CARRIED_STRESS)
+            .where_there((fields::PHASE, fields::CARRIED_STRESS))
             .writes(fields::VELOCITY)
             // What a particle presses on a wall holds sums over its neighbours, and an element sums that up.
             .rings(2)
@@ -146,8 +143,7 @@ fn wall_forces<const D: usize>(
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
-    let position = world.free.get(fields::POSITION)?;
-    let mass = world.free.get(fields::MASS)?;
+    let (position, mass) = world.free.all((fields::POSITION, fields::MASS))?;
     let owned = world.owned();
     let rubs = |wall: usize| {
         let all = elements.coulomb.iter().zip(&elements.wall);

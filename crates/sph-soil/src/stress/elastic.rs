@@ -117,15 +117,13 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
     fn access(&self) -> Access {
         let access = self.gradient.access().and(self.law_inputs.access());
         let access = access
-            .remembers(fields::ELASTIC_STRESS)
-            .remembers(fields::VELOCITY_GRADIENT)
+            .remembers((fields::ELASTIC_STRESS, fields::VELOCITY_GRADIENT))
             .writes(fields::STRAIN_RATE);
         match self.displaced {
             false => access,
             true => access
                 .here(fields::VELOCITY)
-                .remembers(fields::ELASTIC_DISPLACEMENT)
-                .remembers(fields::STRESS_ROTATION),
+                .remembers((fields::ELASTIC_DISPLACEMENT, fields::STRESS_ROTATION)),
         }
     }
     fn phases(&self) -> &'static [StepPhase] {

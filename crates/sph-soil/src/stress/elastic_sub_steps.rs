@@ -73,8 +73,7 @@ impl<const D: usize> ElasticSubSteps<D> {
         if carries.iter().all(|c| *c) {
             return Ok(());
         }
-        let phase = world.free.get(fields::PHASE)?;
-        let position = world.free.get(fields::POSITION)?;
+        let (phase, position) = world.free.all((fields::PHASE, fields::POSITION))?;
         let limit = world.kernel.support_radius().powi(2);
         let lists = world.lists.nearest();
         let carries = |i: usize| carries[phase[i] as usize];

@@ -39,8 +39,7 @@ impl Declares for PorePressure {
     }
     fn access(&self) -> Access {
         Access::none()
-            .here(fields::PRESSURE)
-            .here(fields::EFFECTIVE_PRESSURE)
+            .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
             .writes(fields::PORE_PRESSURE)
     }
 }
@@ -223,8 +222,7 @@ impl<const D: usize> Declares for Solve<D> {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
+            .both((fields::POSITION, fields::VOLUME))
             // A solve starts from the last one.
             .remembers(self.target);
         match self.buoyant.len() {

@@ -110,10 +110,8 @@ impl Declares for ImplicitElasticStress {
     fn access(&self) -> Access {
         self.0
             .access()
-            .here(fields::ELASTIC_STRESS)
-            .here(fields::VELOCITY_GRADIENT)
-            .writes(fields::CARRIED_STRESS)
-            .writes(fields::ELASTIC_STIFFNESS)
+            .here((fields::ELASTIC_STRESS, fields::VELOCITY_GRADIENT))
+            .writes((fields::CARRIED_STRESS, fields::ELASTIC_STIFFNESS))
     }
 }
 
@@ -183,8 +181,7 @@ impl Declares for Yielded {
         self.law_inputs
             .access()
             .here(fields::ELASTIC_STRESS)
-            .writes(fields::FRICTION_SHARE)
-            .writes(fields::SOLID_FRACTION)
+            .writes((fields::FRICTION_SHARE, fields::SOLID_FRACTION))
             .writes(fields::YIELD_FACTOR)
     }
 }

@@ -39,8 +39,7 @@ impl<const D: usize> Declares for GradientStage<D> {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VELOCITY)
+            .both((fields::POSITION, fields::VELOCITY))
             .neighbours(fields::VOLUME)
             .writes(fields::VELOCITY_GRADIENT);
         match self.phases {

@@ -135,8 +135,7 @@ impl<const D: usize> StepHook<D> for Sources {
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
-        let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
-        let density = world.free.get(fields::DENSITY)?;
+        let (eddies, density) = world.free.all((fields::EDDY_VISCOSITY, fields::DENSITY))?;
         let share = match self.sees_surfaces() {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],

@@ -144,8 +144,7 @@ const VALID: [f64; 2] = [1.0, 1000.0];
 
 /// Advice on the spacing where z⁺ of the particles at the walls is out of the range.
 fn range<const D: usize>(world: &World<D>) -> Result<Report, StepError> {
-    let units = world.free.get(WALL_UNITS)?;
-    let friction = world.free.get(FRICTION_VELOCITY)?;
+    let (units, friction) = world.free.all((WALL_UNITS, FRICTION_VELOCITY))?;
     // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
     let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
     let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);

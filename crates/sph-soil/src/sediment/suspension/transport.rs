@@ -70,9 +70,7 @@ impl Transport {
     /// The columns that a step of grains reads and writes.
     pub fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::CONCENTRATION)
-            .both(fields::VOLUME)
+            .both((fields::POSITION, fields::CONCENTRATION, fields::VOLUME))
             .here(fields::MASS)
             .where_there(fields::RENORMALISATION)
             .remembers(fields::CONCENTRATION);
@@ -100,8 +98,7 @@ impl Transport {
 
     /// Concentrations after a step of `dt` seconds: C_a − Δt/V⁰_a Σ_b Φ_ab with V⁰ = m/ρ₀ and Φ_ab = −Φ_ba.
     pub fn step<const D: usize>(&self, world: &World<D>, dt: f64) -> Result<Vec<f64>, StepError> {
-        let concentration = world.free.get(fields::CONCENTRATION)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (concentration, volume) = world.free.all((fields::CONCENTRATION, fields::VOLUME))?;
         let mass = world.free.get(fields::MASS)?;
         let mixing = self.mixing(world)?;
         let phase = match self.phase {
