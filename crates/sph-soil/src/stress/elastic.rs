@@ -5,8 +5,8 @@ use sph_core::{Access, Declares, Pool, Stage, StepError, Symmetric, Vect, fields
 use sph_neighbours::World;
 use sph_rheology::{Elastic, Gradient, Yielding, jaumann};
 
-use crate::stress::strain_rate::in_space;
-use crate::stress::{GradientStage, LawInputs, StrainRate};
+use crate::stress::strain_rate::{in_space, set_strain_rates};
+use crate::stress::{GradientStage, LawInputs};
 
 /// Advances [`ELASTIC_STRESS`](fields::ELASTIC_STRESS) while positions drift, with the velocities
 /// of the drift: together with the kick this is symplectic, and undamped elastic waves keep their
@@ -29,26 +29,20 @@ pub struct ElasticMotion<const D: usize> {
 
 impl<const D: usize> ElasticMotion<D> {
     /// Advances all stresses over `dt` at the present places and velocities.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    pub(crate) fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         self.gradient.run(world)?;
         self.advance(world, dt)
     }
 
     /// The same between two steps of a force: copies of others' particles follow their owners at once.
-    ///
-    /// # Errors
-    /// As [`apply`](Self::apply).
-    pub fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    pub(crate) fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         world.run(&mut self.gradient)?;
         self.advance(world, dt)
     }
 
     fn advance(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if world.free.has(fields::STRAIN_RATE.name) {
-            StrainRate.run(world)?;
+            set_strain_rates(world)?;
         }
         if self.displaced {
             return self.displace(world, dt);

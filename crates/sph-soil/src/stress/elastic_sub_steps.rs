@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Kick, OutsideForce, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_core::{Access, Stage, StepError, Vect, fields};
 use sph_neighbours::{World, accelerations_of};
 
-use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
+use crate::stress::ElasticMotion;
 
 /// u and τ over a step of the flow, N times, at places, volumes, pressures and viscosities that stay:
 ///
@@ -29,7 +29,8 @@ pub struct ElasticSubSteps<const D: usize> {
     pub(crate) term: OutsideForce<D>,
     /// The motion of its stresses.
     pub(crate) motion: ElasticMotion<D>,
-    pub(crate) law_inputs: LawInputs,
+    /// The stress that acts, from the remembered one.
+    pub(crate) carried: Box<dyn Stage<World<D>>>,
     /// The longest sub-step, s.
     pub(crate) longest: f64,
     pub(crate) touched: Vec<bool>,
@@ -65,7 +66,7 @@ impl<const D: usize> ElasticSubSteps<D> {
 
     /// Particles that carry stress or have a neighbour that does.
     fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let laws = self.law_inputs.laws.iter();
+        let laws = self.motion.law_inputs.laws.iter();
         let carries: Vec<bool> = laws.map(|l| l.elastic().is_some()).collect();
         let touched = &mut self.touched;
         touched.clear();
@@ -95,9 +96,9 @@ impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
         "elastic sub-steps".into()
     }
     fn access(&self) -> Access {
-        let access = StepHook::access(&self.motion).and(self.term.access());
-        access
-            .and(CarriedStress(self.law_inputs.clone()).access())
+        StepHook::access(&self.motion)
+            .and(self.term.access())
+            .and(self.carried.access())
             .both(fields::POSITION)
             .here(fields::ACCELERATION)
             .where_there(fields::PHASE)
@@ -145,7 +146,7 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
         self.mean.extend(before.iter().map(|u| -u * more));
         for step in 1..=count {
             if step > 1 {
-                CarriedStress(self.law_inputs.clone()).run(world)?;
+                self.carried.run(world)?;
             }
             let touched = &self.touched;
             accelerations_of(world, &*self.term, |i| touched[i], &mut self.acceleration)?;

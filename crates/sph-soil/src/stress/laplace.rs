@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, Work, fields,
-    parameters, plugin,
+    parameters, plugin, stage,
 };
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
@@ -31,21 +31,11 @@ contribution_kind!(
 /// effective pressure p' that between the grains, 0 outside of soils.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 5.26.
-pub struct PorePressure;
-
-impl Declares for PorePressure {
-    fn name(&self) -> String {
-        "pore pressure".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
-            .writes(fields::PORE_PRESSURE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for PorePressure {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn pore_pressure<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
+        .writes(fields::PORE_PRESSURE);
+    stage("pore pressure", access, |world: &mut World<D>| {
         let mut pore = world.free.take(fields::PORE_PRESSURE)?;
         let whole = world.free.get(fields::PRESSURE)?;
         let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
@@ -53,7 +43,7 @@ impl<const D: usize> Stage<World<D>> for PorePressure {
         let all = pore.par_iter_mut().zip(both).with_min_len(2048);
         all.for_each(|(pore, (whole, effective))| *pore = whole - effective);
         Ok(world.free.put(fields::PORE_PRESSURE, pore)?)
-    }
+    })
 }
 
 /// Solver of the effective pressure.
@@ -162,7 +152,7 @@ impl<const D: usize> Contribution<D> for Laplace {
             let why = "no law of this scene reads a pressure: take this table out";
             return Err(Refusal::at_key("effective-pressure", "", why));
         }
-        offer.stage(PorePressure);
+        offer.stage(pore_pressure());
         offer.saturated = self.pore_density > 0.0;
         let why = "the pressure between the grains could not be solved for: raise \
                    `effective-pressure.laplace.iterations`, or loosen its `tolerance`";

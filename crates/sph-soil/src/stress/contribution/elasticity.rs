@@ -8,9 +8,10 @@ use sph_neighbours::{Interaction, World};
 use sph_rheology::Rheology;
 
 use super::Materials;
+use crate::stress::adjoint::{AdjointDivergence, stress_correction};
+use crate::stress::law_stages::{carried_stress, implicit_elastic_stress, yield_shares};
 use crate::stress::{
-    AdjointDivergence, Blend, Blended, CarriedStress, ElasticForce, ElasticMotion, ElasticSubSteps,
-    HourglassDamping, ImplicitElasticStress, StressCorrection, Yielded,
+    Blend, Blended, ElasticForce, ElasticMotion, ElasticSubSteps, HourglassDamping,
 };
 
 /// Remembered stresses of the laws of a scene, and the force that they make.
@@ -103,12 +104,12 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         };
         let law_inputs = self.0.law_inputs();
         match self.0.ahead() {
-            true => offer.stage(ImplicitElasticStress(law_inputs.clone())),
-            false => offer.stage(CarriedStress(law_inputs.clone())),
+            true => offer.stage(implicit_elastic_stress(law_inputs.clone())),
+            false => offer.stage(carried_stress(law_inputs.clone())),
         }
-        offer.stage(Yielded::new(law_inputs.clone()));
+        offer.stage(yield_shares(law_inputs.clone()));
         if let Some(gradient) = self.0.adjoint() {
-            offer.stage(StressCorrection(gradient.clone()));
+            offer.stage(stress_correction(gradient.clone()));
         }
         let Some(gradient) = self.0.gradient_stage(read) else {
             return Ok(());
@@ -128,7 +129,7 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
                 let sub_steps = ElasticSubSteps {
                     term: term.clone(),
                     motion,
-                    law_inputs,
+                    carried: Box::new(carried_stress(law_inputs)),
                     longest,
                     touched: Vec::new(),
                     acceleration: Vec::new(),

@@ -3,13 +3,16 @@
 use sph_contribution::{
     Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
 };
-use sph_core::AnyField;
+use sph_core::{AnyField, Stage};
 use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, ViscousLimit};
+use sph_neighbours::World;
 use sph_rheology::Rheology;
 
 use super::Materials;
-use crate::stress::{Blend, Blended, CoulombFriction, StrainRate, ViscosityStage};
+use crate::stress::law_stages::viscosities;
+use crate::stress::strain_rate::strain_rates;
+use crate::stress::{Blend, Blended, CoulombFriction};
 
 /// The viscous force of the laws.
 struct Friction<const D: usize> {
@@ -36,11 +39,8 @@ impl<const D: usize> Friction<D> {
         self.materials.implicit_share.is_some()
     }
 
-    fn viscosity_stage(&self) -> ViscosityStage {
-        ViscosityStage {
-            law_inputs: self.materials.law_inputs(),
-            eddies: self.materials.eddies,
-        }
+    fn viscosity_stage(&self) -> impl Stage<World<D>> + use<D> {
+        viscosities(self.materials.law_inputs(), self.materials.eddies)
     }
 
     /// η/ρ₀, the largest that the laws allow, m²/s.
@@ -115,7 +115,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let gradient = materials.gradient_stage(read);
         if let Some(gradient) = gradient.filter(|_| materials.law_inputs().strain_rate()) {
             stages.push(Box::new(gradient));
-            stages.push(Box::new(StrainRate));
+            stages.push(Box::new(strain_rates()));
             stages.push(Box::new(self.viscosity_stage()));
         }
         let lagged = PicardUpdates {

@@ -10,9 +10,10 @@ use sph_rheology::{Rheology, RheologyEntry};
 
 use crate::dilatancy::DilatancyEntry;
 use crate::pores::FRICTION_PRESSURE;
+use crate::stress::strain_rate::{StrainRateTerm, strain_rates};
 use crate::stress::{
-    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, StrainRate,
-    StrainRateTerm, VelocityGradient, VelocityGradientEntry,
+    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, VelocityGradient,
+    VelocityGradientEntry,
 };
 
 /// The laws of a scene, and the plugins that make forces of them.
@@ -180,7 +181,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
             return Ok(());
         };
         match self.0.strain_rides(read) {
-            false => offer.stage(StrainRate),
+            false => offer.stage(strain_rates()),
             true => {
                 let term = Box::new(StrainRateTerm { formula });
                 offer.riding.push((fields::STRAIN_RATE.any(), term));
