@@ -79,7 +79,6 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// True if no fluid is before any of some elements.
     fn is_dry(&self, mut own: Range<usize>) -> bool {
         own.all(|k| !self.inside[k].wet)
     }

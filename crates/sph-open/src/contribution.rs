@@ -22,7 +22,6 @@ const COURSE: usize = 4096;
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
-    /// True if the formulation sums densities.
     summed: bool,
 }
 
@@ -162,7 +161,6 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
 
 const NAME: &str = "open boundaries";
 
-/// Lets mass through.
 #[derive(Clone)]
 pub(crate) struct FacePassing<const D: usize> {
     pub faces: SharedFaces<D>,

@@ -17,7 +17,6 @@ const NEAREST: [f64; 2] = [0.8, 0.9];
 /// Least distance of a new particle from the face, over the spacing: on the fluid's side under any rounding.
 const IN_FRONT: f64 = 1e-6;
 
-/// Particles that pass faces at the end of a step.
 #[derive(Default)]
 pub(crate) struct Exits<const D: usize> {
     /// Particles here, each with the number of its face.
@@ -26,7 +25,6 @@ pub(crate) struct Exits<const D: usize> {
     pub places: Vec<Vect<D>>,
 }
 
-/// A particle behind a face.
 #[derive(Clone, Copy)]
 struct LeavingParticle<const D: usize> {
     identity: u64,

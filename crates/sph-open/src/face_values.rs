@@ -124,7 +124,6 @@ impl<const D: usize> Faces<D> {
         world.agreed(looked, looks, |k| self.nothing(k))
     }
 
-    /// The mean where no particle is near.
     pub(crate) fn nothing(&self, k: usize) -> AdjacentFluid<D> {
         let mut nothing = AdjacentFluid::new(self.whole.len());
         if self.memory.dt > 0.0 {
@@ -134,7 +133,6 @@ impl<const D: usize> Faces<D> {
         nothing
     }
 
-    /// Means over the fluid before an element.
     fn means_before(
         &self,
         world: &World<D>,
@@ -208,7 +206,6 @@ impl<const D: usize> Faces<D> {
     }
 }
 
-/// Columns of the particles before faces.
 struct Columns<'a, const D: usize> {
     position: &'a [Vect<D>],
     velocity: &'a [Vect<D>],
@@ -240,7 +237,6 @@ struct Sums<const D: usize> {
     velocity: Vect<D>,
 }
 
-/// Buffers of a task.
 #[derive(Default)]
 struct Scratch<const D: usize> {
     /// Particles within the support of an element's centre, and the ways from them to it, m.

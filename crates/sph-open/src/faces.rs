@@ -41,7 +41,6 @@ const THINNEST: f64 = 0.5;
 /// An element that is not open.
 pub(crate) const CLOSED: u32 = u32::MAX;
 
-/// One open face.
 pub(crate) struct Face<const D: usize> {
     pub name: String,
     pub law: Arc<dyn OpenBoundary<D>>,

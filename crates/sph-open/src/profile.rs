@@ -62,7 +62,6 @@ impl Profile {
         }
     }
 
-    /// The largest factor.
     pub(crate) fn largest(&self) -> f64 {
         let (along, across) = match self {
             Profile::Surface(_) => (100, 100),
@@ -141,7 +140,6 @@ pub(crate) fn check_table(key: &str, table: &[[f64; 2]]) -> Result<(), OpenRefus
 /// Times, s, and factors of a value between which it goes straight: `[[0, 0], [0.5, 1], [10, 1]]`.
 pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
 
-/// The factor at a time.
 pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
     course
         .as_ref()

@@ -34,7 +34,6 @@ impl<const D: usize> AdjacentFluid<D> {
         }
     }
 
-    /// Calls a function with every number.
     fn each(&mut self, mut visit: impl FnMut(&mut f64)) {
         let inside = &mut self.inside;
         visit(&mut inside.pressure);

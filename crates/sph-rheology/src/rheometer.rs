@@ -7,7 +7,6 @@ use sph_core::Symmetric;
 
 use crate::{Inputs, Rheology};
 
-/// Place of τ_xy in a [`Symmetric`].
 const XY: usize = 3;
 
 /// Effective viscosities η at strain rates γ̇ (1/s) and one pressure (Pa), Pa s; ηγ̇ is the shear
@@ -60,7 +59,6 @@ pub fn shear_stresses(
     stresses.collect()
 }
 
-/// The inputs that the law needs.
 fn inputs<'a>(law: &dyn Rheology, strain_rate: &'a [f64], pressure: &'a [f64]) -> Inputs<'a> {
     let needs = law.needs();
     let asked = |needed: bool, column: &'a [f64]| if needed { column } else { &[] };

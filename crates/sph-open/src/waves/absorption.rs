@@ -17,7 +17,6 @@ pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {
     }
 }
 
-/// The face of a paddle as it is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Face<const D: usize> {
     along: Vect<D>,

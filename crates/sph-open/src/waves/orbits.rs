@@ -28,7 +28,6 @@ pub(crate) struct Orbits {
     pub second: bool,
 }
 
-/// The water at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Water {
     /// Horizontal velocity, the current with it, m/s.
@@ -128,7 +127,6 @@ impl Orbits {
 mod tests {
     use super::*;
 
-    /// One wave.
     fn wave(
         [depth, current]: [f64; 2],
         [amplitude, frequency, wavenumber, phase]: [f64; 4],

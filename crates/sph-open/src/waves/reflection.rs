@@ -115,7 +115,6 @@ impl ReflectionProbe {
         Ok(())
     }
 
-    /// Takes a row of levels in.
     fn take(&self, time: f64, levels: Vec<f64>) -> Result<(), StepError> {
         let mut sums = self.sums.lock().map_err(|_| refused("a thread failed"))?;
         let numbers: Vec<usize> = self.numbers().collect();

@@ -133,7 +133,6 @@ pub struct Focused {
     pub time: f64,
 }
 
-/// Number of waves of a focused group.
 const GROUP: f64 = 64.0;
 
 impl Waves {

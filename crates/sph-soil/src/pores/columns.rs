@@ -44,7 +44,6 @@ impl SoilPhase {
     }
 }
 
-/// The particles of the phase with the pores.
 #[derive(Clone, Copy)]
 pub(crate) struct SoilMask<'a>(Option<(&'a [u32], u32)>);
 

@@ -22,14 +22,11 @@ use crate::stress::{LawInputs, contribution::Materials};
 
 const KIND: &str = "pore-pressure";
 
-/// The pores of one soil, with its law of dilatancy.
 struct Pores<const D: usize> {
     settings: PoreSettings,
     law: Option<Arc<dyn Dilatancy>>,
     law_inputs: LawInputs,
-    /// True if the scene has an effective pressure.
     effective: bool,
-    /// True if it has a seepage of its own.
     seeps: bool,
 }
 
@@ -170,7 +167,6 @@ impl<const D: usize> Pores<D> {
         friction.ok_or_else(|| Refusal::at_key("dilatancy", "", why))
     }
 
-    /// The wall that feeds the pores.
     fn supply(&self, setting: &Setting<'_, D>) -> Result<Option<(u32, Supply)>, Refusal> {
         let darcy = self.settings.darcy.as_ref();
         let Some(supply) = darcy.and_then(|d| d.supply.clone()) else {

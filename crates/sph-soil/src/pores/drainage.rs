@@ -11,7 +11,6 @@ use sph_rheology::state::Reference;
 use super::columns::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE};
 use super::plugins::{Darcy, Supply};
 
-/// Buffers of a solve, kept for their memory.
 #[derive(Default)]
 pub(crate) struct Scratch {
     assembly: Assembly<f64, 1>,
@@ -28,7 +27,6 @@ pub(crate) struct Scratch {
     pub growth: Vec<f64>,
 }
 
-/// The skeleton that drains, and the solver of its excess pressure.
 pub(crate) struct Drainage {
     pub darcy: Darcy,
     /// A wall that feeds the pores, with its number.

@@ -17,7 +17,6 @@ use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
 use crate::stress::LawInputs;
 
-/// Packing and excess pressure of the pores of a soil.
 pub(crate) struct PoreFlow {
     pub soil: SoilPhase,
     pub law: Option<Arc<dyn Dilatancy>>,

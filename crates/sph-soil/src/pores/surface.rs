@@ -104,9 +104,7 @@ pub(crate) struct SurfaceDistance {
     radius: f64,
 }
 
-/// Places of the table.
 const PLACES: usize = 256;
-/// Points of an integral.
 const POINTS: usize = 256;
 /// Share of the support radius below which no particle is from its surface.
 const LEAST: f64 = 0.05;

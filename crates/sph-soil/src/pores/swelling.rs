@@ -7,7 +7,6 @@ use super::columns::{GRAIN_VOLUME, PACKING};
 use super::surface::Outlet;
 use crate::seepage::{Exchange, Gains, Phase};
 
-/// The exchange of fluid between a soil and the flow.
 pub(crate) struct Swelling {
     /// ρ_w, kg/m³.
     pub density: f64,

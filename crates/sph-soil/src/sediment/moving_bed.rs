@@ -86,10 +86,8 @@ impl MovingBed {
     }
 }
 
-/// The law of bed load that a scene names.
 struct BedLoadOfScene<const D: usize> {
     law: Option<Box<dyn BedLoadLaw>>,
-    /// True if the scene names a wall function.
     has_shear: bool,
 }
 
@@ -172,7 +170,6 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
     }
 }
 
-/// Moves the beds of a scene.
 struct BedLoad {
     bed: MovingBed,
     grains: Grains,

@@ -5,7 +5,6 @@ use sph_core::plugin;
 use super::grains::Grains;
 use super::moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
 
-/// A law's plugin, with its rate.
 macro_rules! bed_load {
     ($plugin:ident, $rate:expr) => {
         impl BedLoadLaw for $plugin {

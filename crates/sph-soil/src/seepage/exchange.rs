@@ -78,7 +78,6 @@ impl<const D: usize> Net<D> {
     }
 }
 
-/// Exchange between particles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exchange {
     /// χ.
@@ -92,7 +91,6 @@ pub(crate) struct Exchange {
 /// Share of its size by which a water particle must differ before it evens out.
 const EVEN: f64 = 0.005;
 
-/// Gains of particles.
 pub(crate) struct Gains<const D: usize> {
     /// kg.
     pub mass: Vec<f64>,

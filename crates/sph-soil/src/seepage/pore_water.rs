@@ -12,7 +12,6 @@ use crate::seepage::exchange::{Exchange, Link, Net, Phase};
 use crate::seepage::pore_resistance::PoreResistance;
 use crate::seepage::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 
-/// The columns that links are made of.
 struct Columns<'a, const D: usize> {
     phase: &'a [u32],
     volume: &'a [f64],
@@ -25,7 +24,6 @@ struct Columns<'a, const D: usize> {
     dt: f64,
 }
 
-/// The flow of one water through the pores of one soil.
 pub(crate) struct Seeps<const D: usize> {
     pub resistance: PoreResistance,
     pub phase: Phase,

@@ -73,7 +73,6 @@ impl<const D: usize> Interaction<D> for Blended<D> {
     }
 }
 
-/// [`Blended`] with its columns.
 struct BoundBlended<'a, const D: usize> {
     term: &'a dyn RowTerm<D>,
     share: &'a [f64],

@@ -128,7 +128,6 @@ impl<const D: usize> StepHook<D> for CoulombFriction {
     }
 }
 
-/// Action of a wall on a particle.
 struct Pull<const D: usize> {
     /// Change of the velocity, m/s.
     change: Vect<D>,
@@ -185,7 +184,6 @@ struct ElementSums {
     tractions: [f64; 2],
 }
 
-/// The columns.
 struct Soil<'a, const D: usize> {
     phase: Option<&'a [u32]>,
     rubs: &'a [bool],

@@ -95,7 +95,6 @@ pub struct BoundDisplacement<'a, const D: usize> {
     mass: &'a [f64],
     #[value(&world.walls)]
     walls: &'a WallSet<D>,
-    /// Of the operator.
     #[value(self.choice.on_lattice.scale(EspanolRevenga::default(), world))]
     scale: f64,
     #[value(world.spacing)]

@@ -128,7 +128,6 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
     }
 }
 
-/// Memory of a particle since it was last liquid.
 #[derive(Clone, Copy)]
 struct Memory<const D: usize> {
     /// τ, not cut.

@@ -27,7 +27,6 @@ use crate::stress::ElasticMotion;
 pub struct ElasticSubSteps<const D: usize> {
     /// A force that reads no velocity.
     pub(crate) term: OutsideForce<D>,
-    /// The motion of its stresses.
     pub(crate) motion: ElasticMotion<D>,
     /// The stress that acts, from the remembered one.
     pub(crate) carried: Box<dyn Stage<World<D>>>,
@@ -42,7 +41,6 @@ pub struct ElasticSubSteps<const D: usize> {
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    /// The bound on sub-steps, for listings.
     pub(crate) fn bound(&self) -> String {
         format!(
             "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",

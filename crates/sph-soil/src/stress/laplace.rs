@@ -177,7 +177,6 @@ impl<const D: usize> Contribution<D> for Laplace {
     }
 }
 
-/// The stage of [`Laplace`].
 struct Solve<const D: usize> {
     /// The column of the pressure: another than p' where pores are not at rest.
     target: Field<Scalar>,
@@ -191,13 +190,10 @@ struct Solve<const D: usize> {
     interval: f64,
     /// True if the solver needs the rows of all particles.
     whole: bool,
-    /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
-    /// The memory of former solves.
     scratch: Scratch,
 }
 
-/// Buffers of a solve, kept for their memory.
 #[derive(Default)]
 struct Scratch {
     parts: Vec<Part>,

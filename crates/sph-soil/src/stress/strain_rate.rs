@@ -118,7 +118,6 @@ pub(crate) struct StrainRateTerm<const D: usize> {
     pub formula: Arc<dyn VelocityGradient<D>>,
 }
 
-/// Columns of a gradient: those of [`StrainRateTerm`].
 #[pair_term(StrainRateTerm<D>, "strain rate")]
 pub(crate) struct BoundGradient<'a, const D: usize> {
     #[value(&*self.formula)]
@@ -134,7 +133,6 @@ pub(crate) struct BoundGradient<'a, const D: usize> {
 }
 
 impl<const D: usize> BoundGradient<'_, D> {
-    /// The gradient at a particle, from the sums over its free neighbours.
     #[inline(always)]
     fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
         let own = &self.velocity[at.particle];

@@ -23,7 +23,6 @@ pub struct RoughBed {
 }
 
 impl RoughBed {
-    /// The law of the wall over it.
     pub(crate) fn law(&self) -> WallLaw {
         WallLaw {
             roughness: self.roughness,
@@ -31,7 +30,6 @@ impl RoughBed {
         }
     }
 
-    /// Refuses beds that are none.
     pub(crate) fn check<const D: usize>(
         &self,
         acts_on: &[String],

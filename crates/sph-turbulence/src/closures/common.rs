@@ -10,7 +10,6 @@ use crate::columns::BED;
 use crate::distance::wall_distance;
 use crate::kind::KIND;
 
-/// State behind the stage of a closure.
 #[derive(Default)]
 pub(crate) struct ClosureCommon<'a> {
     /// Name of the plugin.
@@ -32,7 +31,6 @@ pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
 }
 
 impl ClosureCommon<'_> {
-    /// Refuses phases that no closure is for.
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         check(self.name, self.phases, setting)?;

@@ -71,7 +71,6 @@ impl MixingLength {
         }
     }
 
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, rates) = world.free.all((fields::DENSITY, fields::STRAIN_RATE))?;
         let distance = world.free.get(WALL_DISTANCE)?;

@@ -8,7 +8,6 @@ use crate::columns::BED;
 use crate::kind::KIND;
 use crate::wall::WallLaw;
 
-/// Refuses phases that a closure is not for.
 pub(crate) fn check<const D: usize>(
     closure: &str,
     named: &[String],

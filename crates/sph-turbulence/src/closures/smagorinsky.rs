@@ -88,7 +88,6 @@ impl Smagorinsky {
         -(-z_plus / DAMPING_LENGTH).exp_m1()
     }
 
-    /// The column that its eddies follow.
     fn strain_rate(&self) -> Field<Scalar> {
         match self.strain_of {
             StrainOf::ThisStep => fields::STRAIN_RATE,
@@ -96,7 +95,6 @@ impl Smagorinsky {
         }
     }
 
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;

@@ -26,7 +26,6 @@ pub(crate) struct Diffusion<const N: usize> {
     pub wall_flux: Option<f64>,
 }
 
-/// [`Diffusion`] with its columns.
 pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     value: [&'a [f64]; N],
     viscosity: &'a [f64],
@@ -90,7 +89,6 @@ impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
 }
 
 impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
-    /// Values and diffusivities.
     type Own<L: Lane> = [[L; N]; 2];
     type Sum<L: Lane> = [L; N];
 

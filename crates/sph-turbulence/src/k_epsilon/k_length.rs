@@ -94,7 +94,6 @@ fn after(energy: f64, length: f64, [strain_rate, share]: [f64; 2], dt: f64) -> f
 }
 
 impl KLength {
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let length = self.length();
         let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
@@ -154,7 +153,6 @@ impl<const D: usize> Contribution<D> for KLength {
     }
 }
 
-/// Production and dissipation after diffusion, and wall values.
 struct Sources {
     closure: KLength,
     /// ν of every phase, m²/s; none of those that it does not act on.

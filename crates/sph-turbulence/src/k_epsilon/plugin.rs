@@ -91,7 +91,6 @@ impl KEpsilon {
 }
 
 impl Variant {
-    /// Sets the eddy viscosities of k and ε, Pa s.
     fn set<const D: usize>(self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let dissipation = world.free.get(DISSIPATION)?;

@@ -41,7 +41,6 @@ pub(crate) struct Sources {
     pub surface_depth: Option<f64>,
 }
 
-/// Strain rates of a particle.
 #[derive(Clone, Copy)]
 struct StrainRates {
     rate: f64,

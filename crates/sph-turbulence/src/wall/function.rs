@@ -134,7 +134,6 @@ impl<const D: usize> Contribution<D> for LogLaw {
     }
 }
 
-/// True if a phase has a viscosity that the law can take.
 fn is_viscous(viscosity: &Option<f64>) -> bool {
     viscosity.is_some_and(|nu| nu > 0.0)
 }

@@ -6,7 +6,6 @@ use sph_neighbours::{Contact, WallSet};
 /// Least distance from a wall over the spacing: no particle is let nearer.
 pub(crate) const LEAST_DISTANCE: f64 = 0.25;
 
-/// The nearest wall as a particle sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestWall {
     /// Distance from its element's plane, m, not less than a quarter of the spacing.

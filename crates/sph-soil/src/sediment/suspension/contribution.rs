@@ -34,9 +34,7 @@ const REFERENCE_GRAINS: f64 = 2.0;
 struct SuspensionOfScene<const D: usize> {
     law: Option<Box<dyn PickUp>>,
     suspended: Suspended,
-    /// The bed of the law of bed load, if the scene names one.
     bed: Option<MovingBed>,
-    /// True if the scene names a closure for eddies.
     has_eddies: bool,
 }
 
@@ -178,7 +176,6 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
 /// (s − 1) C g, the weight of the grains under water; the field is s − 1.
 struct SubmergedWeight(f64);
 
-/// The weight with its columns.
 struct BoundWeight<'a, const D: usize> {
     concentration: &'a [f64],
     /// (s − 1) g, m/s².
@@ -222,7 +219,6 @@ impl<const D: usize> Limiter<D> for TransportLimit {
     }
 }
 
-/// Moves the grains that are in suspension.
 struct Suspension {
     transport: Transport,
     exchange: BedExchange,

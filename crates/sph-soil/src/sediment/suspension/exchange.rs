@@ -12,7 +12,6 @@ use crate::sediment::bed_shear::WET;
 /// κ of the law of the wall.
 const KARMAN: f64 = 0.41;
 
-/// Exchange of grains between a bed and the water over it.
 pub(super) struct BedExchange {
     pub law: Box<dyn PickUp>,
     pub grains: Grains,

@@ -52,7 +52,6 @@ impl Carried {
     }
 }
 
-/// Settling and mixing of grains in a fluid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transport {
     pub settling: HinderedSettling,

@@ -14,7 +14,6 @@ use crate::stress::{
     Blend, Blended, ElasticForce, ElasticMotion, ElasticSubSteps, HourglassDamping,
 };
 
-/// Remembered stresses of the laws of a scene, and the force that they make.
 struct Elasticity<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]
@@ -54,7 +53,6 @@ impl<const D: usize> Elasticity<D> {
         strength.collect()
     }
 
-    /// The step that elastic waves allow.
     fn wave(&self, setting: &Setting<'_, D>) -> Option<ElasticWaveLimit> {
         let stiffness = self.0.force.as_ref()?.stiffness();
         let both = setting.laws.iter().zip(self.0.laws.iter());
@@ -168,7 +166,6 @@ impl<const D: usize> Elasticity<D> {
         }
     }
 
-    /// Refuses stresses of the end of the step where they are not known.
     fn refuse_implicit(&self) -> Result<(), Refusal> {
         let why = match self.0.implicit_share {
             None => {
@@ -191,7 +188,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key(KIND, "implicit", why))
     }
 
-    /// Refuses a blend of forces where it is not known.
     fn refuse_blend(&self) -> Result<(), Refusal> {
         let blends = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.blends());
         let damps = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.damps());
@@ -210,7 +206,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key(KIND, "blend", why))
     }
 
-    /// Refuses the adjoint force where it is not known.
     fn refuse_adjoint(
         &self,
         force: &dyn ElasticForce<D>,
@@ -235,7 +230,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key("velocity-gradient", "adjoint", why))
     }
 
-    /// Refuses sub-steps where they are not known.
     fn refuse_sub_steps(
         &self,
         force: &dyn ElasticForce<D>,

@@ -14,7 +14,6 @@ use crate::stress::law_stages::viscosities;
 use crate::stress::strain_rate::strain_rates;
 use crate::stress::{Blend, Blended, CoulombFriction};
 
-/// The viscous force of the laws.
 struct Friction<const D: usize> {
     materials: Materials<D>,
     implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
@@ -130,7 +129,6 @@ impl<const D: usize> Contribution<D> for Friction<D> {
     }
 }
 
-/// Coulomb's friction, where a wall has a coefficient.
 struct WallFriction<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]

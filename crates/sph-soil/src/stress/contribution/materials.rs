@@ -67,7 +67,6 @@ impl<const D: usize> Materials<D> {
         })
     }
 
-    /// The pressure between grains.
     pub(crate) fn grain_pressure(&self) -> Field<Scalar> {
         match self.effective {
             true => fields::EFFECTIVE_PRESSURE,
@@ -75,7 +74,6 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// The inputs of the laws.
     pub(crate) fn law_inputs(&self) -> LawInputs {
         let blend = self.force.as_ref().map(|force| force.blend());
         LawInputs {
@@ -113,7 +111,6 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// True if nothing has a viscosity.
     pub(crate) fn inviscid(&self) -> bool {
         self.viscosity() == Viscosity::Uniform(0.0)
     }
@@ -140,7 +137,6 @@ impl<const D: usize> Materials<D> {
     }
 }
 
-/// True if a velocity gradient or a strain rate is among columns.
 fn includes_gradients(read: &[AnyField]) -> bool {
     let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
     read.iter().any(|field| gradients.contains(field))
@@ -150,7 +146,6 @@ fn reads_gradients(law: &dyn Rheology) -> bool {
     law.needs().strain_rate || law.elastic().is_some()
 }
 
-/// Velocity gradients and strain rates, where a law or a stage needs them.
 struct Straining<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]
