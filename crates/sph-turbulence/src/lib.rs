@@ -20,9 +20,7 @@ mod closures;
 mod columns;
 mod distance;
 mod energy_probe;
-mod in_space;
 mod k_epsilon;
-mod kind;
 mod wall;
 
 pub use bed::RoughBed;

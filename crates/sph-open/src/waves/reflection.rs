@@ -8,7 +8,7 @@ use sph_neighbours::World;
 use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
 use crate::waves::dispersion::wavenumber_on;
-use crate::waves::separation::{Separated, separated};
+use crate::waves::separation::{Amplitude, Separated, separated};
 
 /// Waves that run along the first axis and those that come back, from gauges at three places or more.
 ///
@@ -167,11 +167,11 @@ impl ReflectionProbe {
             let frequency = n as f64 / window;
             let on = |u: f64| wavenumber_on(TAU * frequency, self.depth, gravity, u);
             let k = [on(self.current)?, on(-self.current)?];
-            let gauges: Vec<(f64, [f64; 2])> = (self.at.iter().enumerate())
+            let gauges: Vec<(f64, Amplitude)> = (self.at.iter().enumerate())
                 .map(|(gauge, x)| {
                     let place = 2 * (gauge * count + j);
                     let part = |c: usize| 2.0 / window * sums.integrals[place + c];
-                    (*x, [part(0), part(1)])
+                    (*x, Amplitude::new(part(0), part(1)))
                 })
                 .collect();
             let waves = separated(k, &gauges)?;
@@ -181,22 +181,17 @@ impl ReflectionProbe {
     }
 }
 
-fn size(a: [f64; 2]) -> f64 {
-    a[0].hypot(a[1])
-}
-
 /// Significant heights of both directions, √ of their energies' ratio, period of the largest wave.
 fn summed(found: &[(f64, Separated)]) -> Vec<f64> {
     if found.is_empty() {
         return vec![f64::NAN; 4];
     }
-    let energy = |of: fn(&Separated) -> [f64; 2]| -> f64 {
-        found.iter().map(|(_, w)| 0.5 * size(of(w)).powi(2)).sum()
+    let energy = |of: fn(&Separated) -> Amplitude| -> f64 {
+        found.iter().map(|(_, w)| 0.5 * of(w).norm().powi(2)).sum()
     };
     let (incident, reflected) = (energy(|w| w.incident), energy(|w| w.reflected));
-    let incident_of = |(_, w): &(f64, Separated)| size(w.incident);
-    let largest = found.iter();
-    let largest = largest.max_by(|a, b| incident_of(a).total_cmp(&incident_of(b)));
+    let incident_of = |(_, w): &(f64, Separated)| w.incident.norm();
+    let largest = (found.iter()).max_by(|a, b| incident_of(a).total_cmp(&incident_of(b)));
     let peak = largest.map_or(f64::NAN, |(f, _)| 1.0 / f);
     vec![
         4.0 * incident.sqrt(),
@@ -237,7 +232,7 @@ impl<const D: usize> Curves<D> for ReflectionProbe {
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
         let found = self.found(world.gravity.norm())?;
-        let row = |(f, w): &(f64, Separated)| vec![*f, size(w.incident), size(w.reflected)];
+        let row = |(f, w): &(f64, Separated)| vec![*f, w.incident.norm(), w.reflected.norm()];
         Ok(found.iter().map(row).collect())
     }
 }
@@ -361,7 +356,7 @@ mod tests {
         for (f, w) in &found {
             let own = waves.iter().find(|v| (v[0] - f).abs() < 1e-9);
             let [there, back] = own.map_or([0.0; 2], |v| [v[1], v[2]]);
-            let off = [size(w.incident) - there, size(w.reflected) - back];
+            let off = [w.incident.norm() - there, w.reflected.norm() - back];
             assert!(off.iter().all(|x| x.abs() < 4e-5), "{f} Hz: {w:?}");
         }
     }

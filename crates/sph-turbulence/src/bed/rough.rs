@@ -3,7 +3,7 @@
 use sph_contribution::{Refusal, Setting};
 use sph_core::{parameters, suggestion};
 
-use crate::kind::KIND;
+use crate::closures::KIND;
 use crate::wall::WallLaw;
 
 /// The bed of another phase as a rough wall: within a spacing of it η + η_t = ρu*² z/u_t, so that the friction between the two

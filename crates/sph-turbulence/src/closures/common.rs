@@ -4,11 +4,10 @@ use sph_contribution::{Offer, Refusal, Report, Setting};
 use sph_core::{Access, StepError, fields, stage, suggestion};
 use sph_neighbours::World;
 
-use super::phases::{BedEddies, acting, check, viscosities};
+use super::phases::{BedEddies, KIND, acting, check, viscosities};
 use crate::bed::{RoughBed, bed_shear};
 use crate::columns::BED;
 use crate::distance::wall_distance;
-use crate::kind::KIND;
 
 #[derive(Default)]
 pub(crate) struct ClosureCommon<'a> {

@@ -5,8 +5,10 @@ use sph_core::{Access, StepError, fields, suggestion};
 use sph_neighbours::World;
 
 use crate::columns::BED;
-use crate::kind::KIND;
 use crate::wall::WallLaw;
+
+/// The kind of all closures.
+pub(crate) const KIND: &str = "eddy-viscosity";
 
 pub(crate) fn check<const D: usize>(
     closure: &str,

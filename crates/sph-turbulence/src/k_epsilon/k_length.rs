@@ -12,13 +12,10 @@ use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
 use super::near::{beside_bed, refuse_negative};
 use crate::bed::{RoughBed, surface_share};
-use crate::closures::common::{ClosureCommon, rubs};
-use crate::closures::length::Length;
-use crate::closures::phases::{Kinematic, acts_on, viscosities};
+use crate::closures::{ClosureCommon, KIND, Kinematic, Length, acts_on, rubs, viscosities};
 use crate::columns::{
     BED, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE,
 };
-use crate::kind::KIND;
 
 /// η_t = ρ C_μ^¼ √k L, with dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε, ε = C_μ^¾ k^{3/2}/L and
 /// P = min(√C_μ, C_μ k S/ε) k S.

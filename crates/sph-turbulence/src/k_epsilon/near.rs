@@ -3,7 +3,7 @@
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use crate::closures::phases::Kinematic;
+use crate::closures::Kinematic;
 
 /// u*, m/s, and the distance, m, of a particle next to a bed that is a rough wall, from the columns of such a bed.
 pub(crate) fn beside_bed(columns: Option<(&[f64], &[f64])>, i: usize) -> Option<[f64; 2]> {

@@ -8,7 +8,7 @@ use sph_neighbours::World;
 use super::model::{KEpsilonModel, Variant};
 use super::near::{beside_bed, refuse_negative, rubbed};
 use super::realisable::RealisableModel;
-use crate::closures::phases::Kinematic;
+use crate::closures::Kinematic;
 use crate::columns::{
     BED, DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS,
 };

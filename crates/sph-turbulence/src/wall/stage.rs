@@ -5,8 +5,8 @@ use sph_core::{Access, Stage, StepError, fields, stage};
 use sph_neighbours::World;
 
 use super::law::WallLaw;
-use super::nearest::nearest;
-use crate::closures::phases::Kinematic;
+use super::nearest;
+use crate::closures::Kinematic;
 use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 
 /// [`FRICTION_VELOCITY`] u*, [`WALL_UNITS`] z⁺ and [`WALL_FRICTION`](fields::WALL_FRICTION) ρu*²/u_t by the law, from the

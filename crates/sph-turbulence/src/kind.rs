@@ -1,3 +1,0 @@
-//! The kind of all closures.
-
-pub(crate) const KIND: &str = "eddy-viscosity";
