@@ -14,5 +14,6 @@ mod pore_flow;
 mod surface;
 mod swelling;
 
+pub(crate) use columns::PhaseMask;
 pub use columns::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING};
 pub use plugins::{Darcy, Drained, PoreModel, PorePressureEntry, PoreSettings, Supply};

@@ -22,33 +22,28 @@ sph_core::fields! {
         "effective pressure, enlarged by the friction of dilation";
 }
 
-/// The phase with the pores; `None` where a scene has one phase.
+/// The phase of a number; all particles where a scene has one phase.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SoilPhase(pub Option<u32>);
+pub(crate) struct PhaseMask(pub Option<u32>);
 
-impl SoilPhase {
-    /// The columns that [`mask`](Self::mask) reads.
-    pub fn access(self) -> Access {
+impl PhaseMask {
+    /// Adds the columns that [`test`](Self::test) reads.
+    pub fn access(self, access: Access) -> Access {
         match self.0 {
-            None => Access::none(),
-            Some(_) => Access::none().both(fields::PHASE),
+            None => access,
+            Some(_) => access.both(fields::PHASE),
         }
     }
 
-    /// Its particles.
-    pub fn mask<const D: usize>(self, world: &World<D>) -> Result<SoilMask<'_>, StepError> {
-        Ok(SoilMask(match self.0 {
+    /// The test whether a particle is in it.
+    pub fn test<const D: usize>(
+        self,
+        world: &World<D>,
+    ) -> Result<impl Fn(usize) -> bool + Copy + Sync, StepError> {
+        let phase = match self.0 {
             None => None,
             Some(number) => Some((world.free.get(fields::PHASE)?, number)),
-        }))
-    }
-}
-
-#[derive(Clone, Copy)]
-pub(crate) struct SoilMask<'a>(Option<(&'a [u32], u32)>);
-
-impl SoilMask<'_> {
-    pub fn has(self, i: usize) -> bool {
-        self.0.is_none_or(|(phase, number)| phase[i] == number)
+        };
+        Ok(move |i: usize| phase.is_none_or(|(phase, number)| phase[i] == number))
     }
 }

@@ -8,7 +8,7 @@ use sph_contribution::{
 use sph_core::{fields, suggestion};
 
 use super::columns::{
-    EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, SoilPhase,
+    EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PhaseMask,
 };
 use super::drainage::{Drainage, Scratch};
 use super::effective::{dilatant_friction, grain_pressure};
@@ -76,7 +76,7 @@ impl<const D: usize> Contribution<D> for Pores<D> {
         let settings = &self.settings;
         let soil = self.soil(setting)?;
         let only = setting.phases.len() == 1;
-        let phase = SoilPhase((!only).then_some(soil as u32));
+        let phase = PhaseMask((!only).then_some(soil as u32));
         let reference = setting.laws[soil].reference();
         let load = settings.darcy.as_ref().map_or(0.0, |s| s.load);
         offer.stage(grain_pressure(phase, load));

@@ -2,70 +2,62 @@
 
 use std::sync::Arc;
 
-use sph_core::{Stage, StepError, fields, stage};
+use sph_core::{Access, Stage, StepError, fields, stage};
 use sph_neighbours::World;
 use sph_rheology::Yielding;
 
 use super::columns::{
-    DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, SoilPhase,
+    DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, PhaseMask,
 };
 use crate::dilatancy::{Dilatancy, GrainState};
 use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
-pub(crate) fn grain_pressure<const D: usize>(phase: SoilPhase, load: f64) -> impl Stage<World<D>> {
-    let access = phase
-        .access()
+pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> impl Stage<World<D>> {
+    let access = (phase.access(Access::none()))
         .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))
         .writes(fields::EFFECTIVE_PRESSURE);
-    stage(
-        "pressure between grains",
-        access,
-        move |world: &mut World<D>| {
-            let mut effective = world.free.take(fields::EFFECTIVE_PRESSURE)?;
-            let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
-            let soil = phase.mask(world)?;
-            for (i, p) in effective.iter_mut().enumerate() {
-                *p = match soil.has(i) {
-                    true => (drained[i] + load - excess[i]).max(0.0),
-                    false => drained[i],
-                };
-            }
-            Ok(world.free.put(fields::EFFECTIVE_PRESSURE, effective)?)
-        },
-    )
+    let name = "pressure between grains";
+    stage(name, access, move |world: &mut World<D>| {
+        let mut effective = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
+        let soil = phase.test(world)?;
+        for (i, p) in effective.iter_mut().enumerate() {
+            *p = match soil(i) {
+                true => (drained[i] + load - excess[i]).max(0.0),
+                false => drained[i],
+            };
+        }
+        Ok(world.free.put(fields::EFFECTIVE_PRESSURE, effective)?)
+    })
 }
 
 /// p' (1 + tan ψ/μ): the pressure at which a friction of μ, that of slow flow, is one of μ + tan ψ.
 pub(crate) fn dilatant_friction<const D: usize>(
-    phase: SoilPhase,
+    phase: PhaseMask,
     law: Arc<dyn Dilatancy>,
     friction: f64,
 ) -> impl Stage<World<D>> {
-    let access = phase
-        .access()
+    let access = (phase.access(Access::none()))
         .here((fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING))
         .writes(FRICTION_PRESSURE);
-    stage(
-        "friction of dilation",
-        access,
-        move |world: &mut World<D>| {
-            let mut out = world.free.take(FRICTION_PRESSURE)?;
-            let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
-            let (strain_rate, packing) = world.free.all((fields::STRAIN_RATE, PACKING))?;
-            let soil = phase.mask(world)?;
-            out.copy_from_slice(effective);
-            for i in (0..out.len()).filter(|&i| soil.has(i)) {
-                let angle = law.friction(&GrainState {
-                    packing: packing[i],
-                    strain_rate: strain_rate[i],
-                    pressure: effective[i],
-                });
-                out[i] *= (1.0 + angle / friction).max(0.0);
-            }
-            Ok(world.free.put(FRICTION_PRESSURE, out)?)
-        },
-    )
+    let name = "friction of dilation";
+    stage(name, access, move |world: &mut World<D>| {
+        let mut out = world.free.take(FRICTION_PRESSURE)?;
+        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
+        let (strain_rate, packing) = world.free.all((fields::STRAIN_RATE, PACKING))?;
+        let soil = phase.test(world)?;
+        out.copy_from_slice(effective);
+        for i in (0..out.len()).filter(|&i| soil(i)) {
+            let angle = law.friction(&GrainState {
+                packing: packing[i],
+                strain_rate: strain_rate[i],
+                pressure: effective[i],
+            });
+            out[i] *= (1.0 + angle / friction).max(0.0);
+        }
+        Ok(world.free.put(FRICTION_PRESSURE, out)?)
+    })
 }
 
 /// Share of the yield stress from which a material yields.

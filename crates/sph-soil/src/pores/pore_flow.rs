@@ -8,7 +8,7 @@ use sph_neighbours::World;
 
 use super::columns::{
     DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
-    SoilPhase,
+    PhaseMask,
 };
 use super::drainage::{Drainage, Scratch};
 use super::effective::plastic_shares;
@@ -18,7 +18,7 @@ use crate::dilatancy::{Dilatancy, Dilation, GrainState};
 use crate::stress::LawInputs;
 
 pub(crate) struct PoreFlow {
-    pub soil: SoilPhase,
+    pub soil: PhaseMask,
     pub law: Option<Arc<dyn Dilatancy>>,
     /// Of a soil with an elastic part.
     pub plastic: Option<LawInputs>,
@@ -36,9 +36,7 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         "pore pressure".into()
     }
     fn access(&self) -> Access {
-        let mut access = self
-            .soil
-            .access()
+        let mut access = (self.soil.access(Access::none()))
             .both((fields::POSITION, fields::VOLUME, PACKING))
             .both(EXCESS_PORE_PRESSURE)
             .here((DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME))
@@ -63,38 +61,28 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         &[StepPhase::AfterKick]
     }
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut scratch = std::mem::take(&mut self.scratch);
-        let done = self.advance(moment.world, moment.dt, &mut scratch);
-        self.scratch = scratch;
-        done
+        let mut drainage = self.drainage.take();
+        let drained = match &mut drainage {
+            Some(drainage) => self.drain(world, drainage, dt, &mut scratch),
+            None => self.expand(world, dt, &mut scratch.growth),
+        };
+        (self.scratch, self.drainage) = (scratch, drainage);
+        let (outlets, outflow) = drained?;
+        let growth = &self.scratch.growth;
+        self.pack(world, growth)?;
+        match &self.swelling {
+            None => Ok(()),
+            Some(swelling) => swelling.grow(world, growth, &outlets, &outflow, dt),
+        }
     }
 }
 
-impl PoreFlow {
-    fn advance<const D: usize>(
-        &mut self,
-        world: &mut World<D>,
-        dt: f64,
-        scratch: &mut Scratch,
-    ) -> Result<(), StepError> {
-        let (outlets, outflow) = match self.drainage.take() {
-            Some(mut drainage) => {
-                let drained = self.drain(world, &mut drainage, dt, scratch);
-                self.drainage = Some(drainage);
-                drained?
-            }
-            None => {
-                self.expand(world, dt, scratch)?;
-                (Vec::new(), Vec::new())
-            }
-        };
-        self.pack(world, &scratch.growth)?;
-        match &self.swelling {
-            None => Ok(()),
-            Some(swelling) => swelling.grow(world, &scratch.growth, &outlets, &outflow, dt),
-        }
-    }
+/// The outlets of a soil, and the volumes that go out by them in a step, m^d.
+type Outflow = (Vec<Outlet>, Vec<f64>);
 
+impl PoreFlow {
     /// The expansion of a particle at a pressure; none without a law.
     fn dilation(&self, packing: f64, strain_rate: f64, pressure: f64) -> Dilation {
         let state = GrainState {
@@ -119,44 +107,44 @@ impl PoreFlow {
         Ok(both.map(|(rate, share)| rate * share).collect())
     }
 
-    /// Growth of every particle by dilation at the drained pressure.
+    /// Growth of every particle by dilation at the drained pressure; no fluid goes out.
     fn expand<const D: usize>(
         &self,
         world: &World<D>,
         dt: f64,
-        scratch: &mut Scratch,
-    ) -> Result<(), StepError> {
-        let soil = self.soil.mask(world)?;
+        growth: &mut Vec<f64>,
+    ) -> Result<Outflow, StepError> {
+        let soil = self.soil.test(world)?;
         let strain_rate = self.strain_rates(world)?;
         let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
         let drained = world.free.get(DRAINED_PRESSURE)?;
-        scratch.growth.clear();
-        scratch.growth.extend((0..volume.len()).map(|i| {
+        growth.clear();
+        growth.extend((0..volume.len()).map(|i| {
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);
-            match soil.has(i) {
+            match soil(i) {
                 true => self.dilation(packing[i], rate, drained[i]).rate * volume[i] * dt,
                 false => 0.0,
             }
         }));
-        Ok(())
+        Ok(Outflow::default())
     }
 
-    /// Solves for the excess pressure at the end of the step; returns the outlets and the volumes that go out by them, m^d.
+    /// Solves for the excess pressure at the end of the step.
     fn drain<const D: usize>(
         &self,
         world: &mut World<D>,
         drainage: &mut Drainage,
         dt: f64,
         scratch: &mut Scratch,
-    ) -> Result<(Vec<Outlet>, Vec<f64>), StepError> {
+    ) -> Result<Outflow, StepError> {
         let outlets = {
-            let soil = self.soil.mask(world)?;
+            let soil = self.soil.test(world)?;
             let water = self.swelling.as_ref().and_then(|s| s.fluid);
             let phase = world.free.get(fields::PHASE).ok();
             let both = water.zip(phase);
             let fluid = both.map(|(w, p)| move |i: usize| p[i] == w.water);
             let fluid = fluid.as_ref().map(|f| f as &dyn Fn(usize) -> bool);
-            outlets(world, &|i| soil.has(i), fluid, &self.distance)?
+            outlets(world, &soil, fluid, &self.distance)?
         };
         self.coefficients(world, drainage, &outlets, dt, scratch)?;
         drainage.solve(world, scratch)?;
@@ -190,7 +178,7 @@ impl PoreFlow {
     ) -> Result<(), StepError> {
         let darcy = &drainage.darcy;
         let mut earlier = world.free.take(EARLIER_DRAINED_PRESSURE)?;
-        let soil = self.soil.mask(world)?;
+        let soil = self.soil.test(world)?;
         let strain_rate = self.strain_rates(world)?;
         let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
         let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
@@ -209,7 +197,7 @@ impl PoreFlow {
         }
         x.clear();
         x.extend(excess.iter().map(|p| Vect::<1>::from([*p])));
-        for i in (0..volume.len()).filter(|&i| soil.has(i)) {
+        for i in (0..volume.len()).filter(|&i| soil(i)) {
             let before = match earlier[i] < 0.0 {
                 true => drained[i],
                 false => earlier[i],
@@ -248,10 +236,10 @@ impl PoreFlow {
     fn pack<const D: usize>(&self, world: &mut World<D>, growth: &[f64]) -> Result<(), StepError> {
         let mut packing = world.free.take(PACKING)?;
         let grains = world.free.get(GRAIN_VOLUME)?;
-        let soil = self.soil.mask(world)?;
+        let soil = self.soil.test(world)?;
         let densest = self.law.as_ref().map_or(1.0, |law| law.densest());
         let mut bad = None;
-        for i in (0..packing.len()).filter(|&i| soil.has(i)) {
+        for i in (0..packing.len()).filter(|&i| soil(i)) {
             packing[i] = grains[i] / (grains[i] / packing[i] + growth[i]);
             // Not `>=`: a packing that is not a number must be seen.
             if !(packing[i] > 0.0 && packing[i] < densest) {

@@ -177,7 +177,7 @@ struct BedLoad {
 }
 
 impl BedLoad {
-    /// Critical Shields number on a slope, for a flow along a unit vector.
+    /// Critical Shields number at a place on a slope, for a flow along a unit vector.
     fn critical(&self, gradient: [f64; 2], along: [f64; 2]) -> f64 {
         self.bed.critical(&self.grains)
             * critical_ratio(gradient, along, self.bed.repose_angle.tan())
@@ -185,22 +185,16 @@ impl BedLoad {
 
     /// Critical Shields number at a place; infinite where no water flows.
     fn threshold(&self, bed: &Bed, place: usize) -> f64 {
-        let [x, y] = bed.shear[place];
-        let squared = x.hypot(y);
-        match squared > 0.0 {
-            true => self.critical(gradient(bed, place), [x / squared, y / squared]),
-            false => f64::INFINITY,
-        }
+        flow(bed, place).map_or(f64::INFINITY, |(_, along)| {
+            self.critical(gradient(bed, place), along)
+        })
     }
 
     /// Flux of grains at a place, m²/s.
     fn flux(&self, bed: &Bed, place: usize) -> [f64; 2] {
-        let [x, y] = bed.shear[place];
-        let squared = x.hypot(y);
-        if squared == 0.0 || bed.covered[place] {
+        let Some((squared, along)) = flow(bed, place).filter(|_| !bed.covered[place]) else {
             return [0.0; 2];
-        }
-        let along = [x / squared, y / squared];
+        };
         let gradient = gradient(bed, place);
         let critical = self.critical(gradient, along);
         let shields = self.grains.shields(squared);
@@ -246,6 +240,13 @@ impl BedLoad {
         bed.slid += step.slid;
         Ok(())
     }
+}
+
+/// u*², m²/s², and the unit vector of the flow at a place; none where no water flows.
+fn flow(bed: &Bed, place: usize) -> Option<(f64, [f64; 2])> {
+    let [x, y] = bed.shear[place];
+    let squared = x.hypot(y);
+    (squared > 0.0).then(|| (squared, [x / squared, y / squared]))
 }
 
 /// ∇z at a place, by the levels on both sides of it.

@@ -64,19 +64,14 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     }
     /// Warns where sizes beside the soil differ so much that the flux is too small.
     fn report(&self, world: &World<D>) -> Report {
-        let uneven = Exchange::most_uneven(world, &self.phase);
-        let uneven = uneven.ok().flatten();
-        let uneven = uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN);
-        let warning = uneven.map(|(_, size)| {
-            format!(
+        let uneven = Exchange::most_uneven(world, &self.phase).ok().flatten();
+        match uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN) {
+            None => Report::default(),
+            Some((_, size)) => Report::warning(format!(
                 "seepage: a water particle beside the soil has {size:.2} of its size, and the flux is too small where \
                  sizes differ by more than {UNEVEN} (31 % with 0.07): the grains are too coarse for this spacing; take \
                  a finer one, or finer grains"
-            )
-        });
-        Report {
-            warnings: warning.into_iter().collect(),
-            ..Report::default()
+            )),
         }
     }
 }
@@ -114,9 +109,10 @@ impl<const D: usize> Seeps<D> {
             water.iter().for_each(|&i| touched[i as usize] = true);
         }
         let beside = shares(&|i| touched[i])?;
-        let depth = ground.iter().zip(&beside);
-        let depth = depth.map(|(a, b)| a.as_ref().or(b.as_ref()).map_or(0.0, |found| found.0));
-        let depth: Vec<f64> = depth.collect();
+        let both = ground.iter().zip(&beside);
+        let depth: Vec<f64> = both
+            .map(|(a, b)| a.as_ref().or(b.as_ref()).map_or(0.0, |found| found.0))
+            .collect();
         let columns = Columns {
             phase,
             volume,
@@ -134,8 +130,9 @@ impl<const D: usize> Seeps<D> {
             self.links(&columns, &around.rows)
         })?;
         let all = all.into_iter().enumerate();
-        let taking_part = all.filter_map(|(i, links)| Some((i as u32, links?)));
-        let (particles, links) = taking_part.unzip();
+        let (particles, links) = all
+            .filter_map(|(i, links)| Some((i as u32, links?)))
+            .unzip();
         Ok(Net { particles, links })
     }
 
@@ -270,15 +267,14 @@ impl<const D: usize> Seeps<D> {
         let system = ParticleMatrix::new(&matrix, &space, Some(&places));
         let solved = self.solver.solve(&system, &right, &mut x);
         solved.map_err(|e| StepError::stage("seepage", e.to_string()))?;
-        let found = net.particles.iter().map(|&i| match soil(i) {
-            true => x[row[i as usize] as usize][0],
-            false => present[i as usize],
-        });
-        let found: Vec<f64> = found.collect();
         seeping.fill(0.0);
-        for (&particle, p) in net.particles.iter().zip(&found) {
-            seeping[particle as usize] = *p;
+        for &i in &net.particles {
+            seeping[i as usize] = match soil(i) {
+                true => x[row[i as usize] as usize][0],
+                false => present[i as usize],
+            };
         }
+        let found = net.particles.iter().map(|&i| seeping[i as usize]).collect();
         world.free.put(SEEPAGE_PRESSURE, seeping)?;
         Ok(found)
     }
@@ -307,10 +303,7 @@ impl<const D: usize> Seeps<D> {
                 sum -= link.separation * (link.share / link.within * drive);
                 moment += link.separation * link.separation.transpose() * link.share;
             }
-            let force = match trusted_inverse(&moment) {
-                Some(inverse) => inverse * sum,
-                None => sum,
-            };
+            let force = trusted_inverse(&moment).map_or(sum, |inverse| inverse * sum);
             let inertia = self.resistance.inertia / dt;
             let mobility = self.resistance.mobility(flux[i].norm(), dt);
             flux[i] = (flux[i] * inertia + force) * mobility;

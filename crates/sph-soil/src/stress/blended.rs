@@ -116,24 +116,19 @@ impl<const D: usize> BoundBlended<'_, D> {
         fn selected<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
             kept.iter().map(|k| column[*k]).collect()
         }
-        let index = selected(&kept, at.free.index);
-        let separation = selected(&kept, at.free.separation);
-        let distance2 = selected(&kept, at.free.distance2);
-        let factor = selected(&kept, at.free.factor);
-        let none = Row {
-            index: &[],
-            separation: &[],
-            distance2: &[],
-            factor: &[],
-        };
         let others = Neighbourhood {
             free: Row {
-                index: &index,
-                separation: &separation,
-                distance2: &distance2,
-                factor: &factor,
+                index: &selected(&kept, at.free.index),
+                separation: &selected(&kept, at.free.separation),
+                distance2: &selected(&kept, at.free.distance2),
+                factor: &selected(&kept, at.free.factor),
             },
-            wall: none,
+            wall: Row {
+                index: &[],
+                separation: &[],
+                distance2: &[],
+                factor: &[],
+            },
             contacts: ContactRow::NONE,
             ..*at
         };

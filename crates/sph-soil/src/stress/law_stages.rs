@@ -79,43 +79,40 @@ pub(crate) fn implicit_elastic_stress<const D: usize>(laws: LawInputs) -> impl S
     let access = elastic_access(&laws)
         .here(fields::VELOCITY_GRADIENT)
         .writes((fields::CARRIED_STRESS, fields::ELASTIC_STIFFNESS));
-    stage(
-        "carried stress, ahead",
-        access,
-        move |world: &mut World<D>| {
-            let dt = world.dt;
-            let mut carried = world.free.take(fields::CARRIED_STRESS)?;
-            let stress = world.free.get(fields::ELASTIC_STRESS)?;
-            let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
-            let mut stiffness = vec![0.0; stress.len()];
-            let shares = |elastic: &dyn Elastic, inputs: &Inputs<'_>, run: Range<usize>| {
-                let twice = 2.0 * elastic.shear_modulus() * dt;
-                let both = stress[run.clone()].iter().zip(&gradient[run]);
-                let trial = both.map(|(stress, gradient)| {
-                    *stress + Symmetric::part_of(in_space(gradient)).deviator() * twice
-                });
-                yielding(elastic, inputs, &trial.collect::<Vec<_>>())
-            };
-            laws.each(world, &mut stiffness, |law, inputs, run, out| {
-                if let Some(elastic) = law.elastic() {
-                    let modulus = elastic.shear_modulus();
-                    let all = out.iter_mut().zip(shares(elastic, inputs, run));
-                    all.for_each(|(out, y)| *out = modulus * (y.solid * y.held));
-                }
-            })?;
-            laws.each(world, &mut carried, |law, _, run, out| {
-                let Some(elastic) = law.elastic() else {
-                    return out.fill(Symmetric::ZERO);
-                };
+    let name = "carried stress, ahead";
+    stage(name, access, move |world: &mut World<D>| {
+        let dt = world.dt;
+        let mut carried = world.free.take(fields::CARRIED_STRESS)?;
+        let stress = world.free.get(fields::ELASTIC_STRESS)?;
+        let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
+        let mut stiffness = vec![0.0; stress.len()];
+        let shares = |elastic: &dyn Elastic, inputs: &Inputs<'_>, run: Range<usize>| {
+            let twice = 2.0 * elastic.shear_modulus() * dt;
+            let both = stress[run.clone()].iter().zip(&gradient[run]);
+            let trial = both.map(|(stress, gradient)| {
+                *stress + Symmetric::part_of(in_space(gradient)).deviator() * twice
+            });
+            yielding(elastic, inputs, &trial.collect::<Vec<_>>())
+        };
+        laws.each(world, &mut stiffness, |law, inputs, run, out| {
+            if let Some(elastic) = law.elastic() {
                 let modulus = elastic.shear_modulus();
-                let all = stress[run.clone()].iter().zip(&stiffness[run]);
-                let all = out.iter_mut().zip(all);
-                all.for_each(|(out, (stress, stiff))| *out = *stress * (stiff / modulus));
-            })?;
-            world.free.put(fields::CARRIED_STRESS, carried)?;
-            Ok(world.free.put(fields::ELASTIC_STIFFNESS, stiffness)?)
-        },
-    )
+                let all = out.iter_mut().zip(shares(elastic, inputs, run));
+                all.for_each(|(out, y)| *out = modulus * (y.solid * y.held));
+            }
+        })?;
+        laws.each(world, &mut carried, |law, _, run, out| {
+            let Some(elastic) = law.elastic() else {
+                return out.fill(Symmetric::ZERO);
+            };
+            let modulus = elastic.shear_modulus();
+            let all = stress[run.clone()].iter().zip(&stiffness[run]);
+            let all = out.iter_mut().zip(all);
+            all.for_each(|(out, (stress, stiff))| *out = *stress * (stiff / modulus));
+        })?;
+        world.free.put(fields::CARRIED_STRESS, carried)?;
+        Ok(world.free.put(fields::ELASTIC_STIFFNESS, stiffness)?)
+    })
 }
 
 /// [`FRICTION_SHARE`](fields::FRICTION_SHARE), [`SOLID_FRACTION`](fields::SOLID_FRACTION) and

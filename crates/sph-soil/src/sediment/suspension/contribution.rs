@@ -11,6 +11,7 @@ use super::exchange::BedExchange;
 use super::plugins::{PickUp, SuspensionEntry};
 use super::settling::Suspended;
 use super::transport::Transport;
+use crate::pores::PhaseMask;
 use crate::sediment::moving_bed::carrier;
 use crate::sediment::{BedLoadEntry, Grains, MovingBed};
 
@@ -150,7 +151,7 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
             settling,
             diffusivity: self.suspended.diffusivity,
             schmidt: self.has_eddies.then_some(self.suspended.schmidt_number),
-            phase: (setting.phases.len() > 1).then_some(water as u32),
+            phase: PhaseMask((setting.phases.len() > 1).then_some(water as u32)),
             density,
         };
         let reference = self.suspended.reference_height;
