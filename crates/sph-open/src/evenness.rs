@@ -75,7 +75,7 @@ impl<const D: usize> Faces<D> {
             true => 1.0,
             false => 1.0 / (1.0 + rows * rows),
         };
-        now - slow + (1.0 - stays) * (slow + self.background(self.phase(k)))
+        now - slow + (1.0 - stays) * (slow + self.backgrounds[self.phase(k)])
     }
 
     /// Pressure of the faces that a particle sees, as far as it is `taken` out of their elements, Pa: 0 where it sees none.

@@ -64,7 +64,10 @@ mod tests {
         let gauges = PLACES.map(|x| (x, signal(k, x, incident, reflected)));
         let found = separated(k, &gauges).expect("a solution");
         for error in [found.incident - incident, found.reflected - reflected] {
-            assert!(error.re.abs() < 1e-15 && error.im.abs() < 1e-15, "{found:?}");
+            assert!(
+                error.re.abs() < 1e-15 && error.im.abs() < 1e-15,
+                "{found:?}"
+            );
         }
     }
 

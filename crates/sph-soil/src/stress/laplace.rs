@@ -141,7 +141,10 @@ impl Laplace {
                     sweeps: self.iterations.unwrap_or(100_000),
                 }),
             },
-            scratch: Scratch::default(),
+            parts: Vec::new(),
+            assembly: Assembly::default(),
+            pressure: Vec::new(),
+            pool: Pool::default(),
         }
     }
 }
@@ -191,15 +194,10 @@ struct Solve<const D: usize> {
     /// True if the solver needs the rows of all particles.
     whole: bool,
     solver: Box<dyn LinearSolver<1>>,
-    scratch: Scratch,
-}
-
-#[derive(Default)]
-struct Scratch {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
-    scratch_pool: Pool<ClusterCoefficients>,
+    pool: Pool<ClusterCoefficients>,
 }
 
 impl<const D: usize> Declares for Solve<D> {
@@ -233,31 +231,22 @@ impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn bytes(&self) -> usize {
         let Assembly {
             pattern, values, ..
-        } = &self.scratch.assembly;
+        } = &self.assembly;
         size_of_val(&pattern.starts[..])
             + size_of_val(&pattern.columns[..])
             + size_of_val(&values.diagonal[..])
             + size_of_val(&values.others[..])
-            + size_of_val(&self.scratch.pressure[..])
+            + size_of_val(&self.pressure[..])
     }
 }
 
 impl<const D: usize> Solve<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
-        let mut scratch = std::mem::take(&mut self.scratch);
-        let solved = self.solve_in(world, &mut scratch);
-        self.scratch = scratch;
-        solved
-    }
-
-    fn solve_in(
-        &mut self,
-        world: &mut World<D>,
-        scratch: &mut Scratch,
-    ) -> Result<Report, StepError> {
         let space = world.space()?;
-        self.parts(world, &space, &mut scratch.parts)?;
-        let (parts, assembly) = (&scratch.parts, &mut scratch.assembly);
+        let mut parts = std::mem::take(&mut self.parts);
+        self.find_parts(world, &space, &mut parts)?;
+        self.parts = parts;
+        let (parts, assembly) = (&self.parts, &mut self.assembly);
         let system = Couplings {
             owned: space.owned(),
             parts,
@@ -267,19 +256,18 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, &scratch.scratch_pool),
+            |rows, cluster| system.add(cluster, rows, &self.pool),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(self.target)?;
-        let x = &mut scratch.pressure;
+        let x = &mut self.pressure;
         x.clear();
         let both = pressure.iter().zip(parts);
         x.extend(both.map(|(p, part)| start(*p, part)));
-        let sources = &assembly.sources;
         let system = ParticleMatrix::new(&matrix, &space, None);
-        let solved = self.solver.solve(&system, sources, x);
+        let solved = self.solver.solve(&system, &assembly.sources, x);
         let both = pressure.iter_mut().zip(&*x);
         both.for_each(|(p, x)| *p = x[0].max(0.0));
         world.free.put(self.target, pressure)?;
@@ -298,7 +286,7 @@ impl<const D: usize> Solve<D> {
     }
 
     /// The roles of all particles; marks of copies at the surface are those of their owners.
-    fn parts(
+    fn find_parts(
         &self,
         world: &World<D>,
         space: &Space<D>,

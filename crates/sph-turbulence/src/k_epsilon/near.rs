@@ -35,27 +35,25 @@ pub(crate) fn refuse_negative<const D: usize>(
 }
 
 /// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.
-pub(crate) fn rubbed<const D: usize>(world: &World<D>, viscosities: &[Option<f64>]) -> Vec<String> {
-    let Ok(viscosity) = Kinematic::from_world(viscosities, world) else {
-        return Vec::new();
-    };
+pub(crate) fn rubbed<const D: usize>(
+    world: &World<D>,
+    viscosities: &[Option<f64>],
+) -> Option<String> {
+    let viscosity = Kinematic::from_world(viscosities, world).ok()?;
     let walls = &world.walls;
     let elements = &walls.elements;
     let rubs = |s: usize| {
         elements.friction_factor[s] > 0.0 && elements.wall_function.get(s) != Some(&true)
     };
-    let of = |i: usize| {
-        let mut contacts = walls.contacts.of_particle(i).iter();
-        contacts.find(|c| rubs(c.element as usize))
-    };
     let particles = walls.contacts.particles.iter().map(|p| *p as usize);
     let mut turbulent = particles.filter(|i| viscosity.at(*i).is_some());
-    let Some(met) = turbulent.find_map(of) else {
-        return Vec::new();
-    };
+    let met = turbulent.find_map(|i| {
+        let mut contacts = walls.contacts.of_particle(i).iter();
+        contacts.find(|c| rubs(c.element as usize))
+    })?;
     let name = &walls.names[elements.wall[met.element as usize] as usize];
-    vec![format!(
+    Some(format!(
         "k has no value at the wall `{name}`, which rubs the turbulent fluid without a wall function: its shear is that of \
          the eddies of the first row; name it in `[wall-function.log-law]`"
-    )]
+    ))
 }

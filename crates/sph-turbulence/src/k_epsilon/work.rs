@@ -168,9 +168,6 @@ impl<const D: usize> StepHook<D> for Sources {
         Ok(world.free.put(DISSIPATION, dissipation)?)
     }
     fn report(&self, world: &World<D>) -> Report {
-        Report {
-            advice: rubbed(world, &self.viscosities),
-            ..Report::default()
-        }
+        rubbed(world, &self.viscosities).map_or_else(Report::default, Report::advice)
     }
 }
