@@ -1,7 +1,6 @@
 //! Closures without a history.
 
 mod common;
-mod length;
 mod mixing_length;
 mod phases;
 mod smagorinsky;
@@ -9,7 +8,7 @@ mod wale;
 mod wall_units;
 
 pub(crate) use common::{ClosureCommon, rubs};
-pub(crate) use length::Length;
+pub(crate) use mixing_length::Length;
 pub use mixing_length::MixingLength;
 pub(crate) use phases::{KIND, Kinematic, acts_on, viscosities};
 pub use smagorinsky::{Damping, FilterLength, Smagorinsky, StrainOf};

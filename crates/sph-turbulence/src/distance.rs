@@ -1,6 +1,5 @@
 //! Distance of particles from walls.
 
-mod simplex;
 mod tree;
 
 use rayon::prelude::*;

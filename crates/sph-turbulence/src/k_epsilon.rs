@@ -4,7 +4,6 @@ mod diffusion;
 mod earsm;
 mod k_length;
 mod model;
-mod near;
 mod plugin;
 mod realisable;
 mod work;

@@ -4,7 +4,6 @@ mod function;
 mod law;
 mod probe;
 mod solution;
-mod stage;
 
 use sph_core::Vect;
 use sph_neighbours::{Contact, WallSet};

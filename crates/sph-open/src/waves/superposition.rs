@@ -33,9 +33,6 @@ impl Component {
 
 /// True if waves are of second order: if the `order` is 2, or none is named and it `fits` them; `unfit` is the refusal where it
 /// does not. Regular waves are to be so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
-///
-/// # Errors
-/// The key `order`.
 pub(crate) fn second_order(
     waves: &[Component],
     depth: f64,

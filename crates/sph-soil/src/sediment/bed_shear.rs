@@ -11,9 +11,6 @@ pub(super) const WET: f64 = 0.25;
 /// with the bilinear weights of the places around.
 ///
 /// Σ V |∇γ| of a full row is half of the area: where there is less than an eighth, the bed falls dry and the shear with it.
-///
-/// # Errors
-/// If a column is missing, or a sum over all particles fails.
 pub(super) fn shear<const D: usize>(
     world: &World<D>,
     bed: &Bed,

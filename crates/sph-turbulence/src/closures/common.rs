@@ -58,9 +58,6 @@ impl ClosureCommon<'_> {
     /// Offers the stage of a closure, of a name in plans and the columns that it reads, which sets the eddy viscosities, Pa s:
     /// none in phases on which it does not act, neither in soils nor in fluids that are not named. Besides the stages of
     /// distances and of the bed, if it reads them; and a word at the end, if it has one.
-    ///
-    /// # Errors
-    /// The key of what no closure is for.
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,

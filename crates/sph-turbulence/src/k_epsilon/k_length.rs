@@ -10,7 +10,7 @@ use sph_neighbours::World;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
-use super::near::{beside_bed, refuse_negative};
+use super::work::{beside_bed, refuse_negative};
 use crate::bed::{RoughBed, surface_share};
 use crate::closures::{ClosureCommon, KIND, Kinematic, Length, acts_on, rubs, viscosities};
 use crate::columns::{
