@@ -282,17 +282,9 @@ mod tests {
     }
 
     fn probe(lowest: f64, highest: f64, [from, to]: [f64; 2]) -> ReflectionProbe {
-        ReflectionProbe {
-            at: vec![3.0, 3.3, 3.75],
-            across: 0.0,
-            depth: 0.5,
-            from,
-            to,
-            lowest,
-            highest,
-            current: 0.0,
-            sums: Mutex::default(),
-        }
+        let band = format!("lowest = {lowest}\nhighest = {highest}\nfrom = {from}\nto = {to}");
+        let places = "at = [3.0, 3.3, 3.75]\ndepth = 0.5";
+        toml::from_str(&format!("{places}\n{band}")).expect("a probe")
     }
 
     /// Feeds it the levels of waves (frequency, amplitude there, amplitude back, phase), every 20 ms, in steps that do
@@ -315,14 +307,8 @@ mod tests {
     }
 
     #[test]
-    fn regular_waves_and_what_comes_back() {
-        regular_on(0.0);
-    }
-
-    #[test]
-    fn regular_waves_on_a_current() {
-        regular_on(0.3);
-        regular_on(-0.2);
+    fn regular_waves_and_what_comes_back_at_rest_and_on_a_current() {
+        [0.0, 0.3, -0.2].into_iter().for_each(regular_on);
     }
 
     fn regular_on(current: f64) {
