@@ -12,9 +12,8 @@ use sph_neighbours::World;
 use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
-use crate::flux::OPEN_FLUX;
 use crate::walls::OpenWalls;
-use crate::{Entering, OpenBoundary, OpenRefusal};
+use crate::{Entering, OPEN_FLUX, OpenBoundary, OpenRefusal};
 
 /// Parts of the run at the ends of which the course of a law is checked.
 const COURSE: usize = 4096;

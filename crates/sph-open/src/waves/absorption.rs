@@ -6,8 +6,7 @@ use sph_boundary::{Course, Drawing, MoverSetting, RigidState, SinePart};
 use sph_core::Vect;
 use sph_neighbours::DepthGauge;
 
-use crate::waves::Paddle;
-use crate::waves::superposition::Component;
+use crate::waves::{Component, Paddle};
 
 /// Unit axis about which a flap turns forward, up × along; along z in the plane.
 pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {

@@ -7,8 +7,7 @@ use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
-use crate::waves::dispersion::wavenumber_on;
-use crate::waves::separation::{Amplitude, Separated, separated};
+use crate::waves::{Amplitude, Separated, separated, wavenumber_on};
 
 /// Waves that run along the first axis and those that come back, from gauges at three places or more.
 ///

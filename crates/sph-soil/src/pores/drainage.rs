@@ -8,8 +8,7 @@ use sph_multiphase::linear::{
 use sph_neighbours::{Cluster, Lane, LanePair, PairNumbers, Particles, World};
 use sph_rheology::state::Reference;
 
-use super::columns::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE};
-use super::plugins::{Darcy, Supply};
+use crate::pores::{DRAINED_PRESSURE, Darcy, EXCESS_PORE_PRESSURE, Supply};
 
 #[derive(Default)]
 pub(crate) struct Scratch {

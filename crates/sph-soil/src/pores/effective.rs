@@ -6,10 +6,8 @@ use sph_core::{Access, Stage, StepError, fields, stage};
 use sph_neighbours::World;
 use sph_rheology::Yielding;
 
-use super::columns::{
-    DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, PhaseMask,
-};
 use crate::dilatancy::{Dilatancy, GrainState};
+use crate::pores::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, PhaseMask};
 use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.

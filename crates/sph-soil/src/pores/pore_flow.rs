@@ -6,15 +6,13 @@ use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::World;
 
-use super::columns::{
-    DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
-    PhaseMask,
-};
+use super::columns::{EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME};
 use super::drainage::{Drainage, Scratch};
 use super::effective::plastic_shares;
 use super::surface::{Outlet, SurfaceDistance, feeds, outlets};
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
+use crate::pores::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, PACKING, PhaseMask};
 use crate::stress::LawInputs;
 
 pub(crate) struct PoreFlow {

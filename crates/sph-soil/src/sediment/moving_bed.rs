@@ -8,9 +8,8 @@ use sph_core::bed::Bed;
 use sph_core::{Access, StepError, Work, contract, fields, parameters};
 use sph_neighbours::World;
 
-use super::balance::{Packing, balance};
 use super::bed_shear::shear;
-use super::grains::{Grains, critical_ratio};
+use crate::sediment::{Grains, Packing, balance, critical_ratio};
 
 /// A law of bed load.
 pub trait BedLoadLaw: Send {

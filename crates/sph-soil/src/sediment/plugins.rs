@@ -2,8 +2,7 @@
 
 use sph_core::plugin;
 
-use super::grains::Grains;
-use super::moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
+use crate::sediment::{BedLoadEntry, BedLoadLaw, Grains, MovingBed};
 
 macro_rules! bed_load {
     ($plugin:ident, $rate:expr) => {

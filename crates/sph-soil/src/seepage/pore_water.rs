@@ -8,9 +8,8 @@ use sph_multiphase::linear::{
 };
 use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};
 
-use crate::seepage::exchange::{Exchange, Link, Net, Phase};
-use crate::seepage::pore_resistance::PoreResistance;
-use crate::seepage::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
+use crate::seepage::exchange::{Link, Net};
+use crate::seepage::{Exchange, Phase, PoreResistance, SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 
 struct Columns<'a, const D: usize> {
     phase: &'a [u32],

@@ -6,8 +6,7 @@ use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::ClosureCommon;
-use crate::bed::RoughBed;
-use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
+use crate::{FRICTION_VELOCITY, RoughBed, WALL_DISTANCE};
 
 /// η_t = ρ L² √(2 D:D), with L = κz, at most `longest`, or L = κz√(1 − z/H) in an open channel of a `depth` H, and
 /// the true distance z from the nearest wall.

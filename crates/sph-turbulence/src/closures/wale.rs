@@ -8,8 +8,7 @@ use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::ClosureCommon;
-use super::smagorinsky::FilterLength;
-use crate::bed::RoughBed;
+use crate::{FilterLength, RoughBed};
 
 /// η_t = ρ (C_w Δ)² (S^d:S^d)^{3/2} / ((S:S)^{5/2} + (S^d:S^d)^{5/4}), with S the strain rate,
 /// S^d = ½(g² + g²ᵀ) − ⅓ tr(g²) 1 and the velocity gradient g.

@@ -8,14 +8,13 @@ use sph_neighbours::World;
 use sph_soil::stress::StressDivergence;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
-use super::earsm::{AlgebraicStress, extra_stress};
-use super::model::{KEpsilonModel, Variant};
-use super::realisable::RealisableModel;
-use super::work::{AtWall, Sources};
-use crate::bed::{RoughBed, surface_share};
+use super::earsm::extra_stress;
+use super::work::Sources;
+use crate::bed::surface_share;
 use crate::closures::{ClosureCommon, KIND, acts_on, rubs, viscosities};
-use crate::columns::{
-    DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
+use crate::{
+    AlgebraicStress, AtWall, DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, KEpsilonModel,
+    RealisableModel, RoughBed, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, Variant,
 };
 
 /// η_t = ρ C_μ k²/ε, with

@@ -5,10 +5,9 @@ use sph_contribution::{Contribution, Offer, Refusal, Report, Setting, contributi
 use sph_core::{Access, Stage, StepError, Work, fields, plugin, stage, suggestion};
 use sph_neighbours::World;
 
-use super::law::WallLaw;
 use super::nearest;
 use crate::closures::Kinematic;
-use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
+use crate::{FRICTION_VELOCITY, WALL_UNITS, WallLaw};
 
 contribution_kind!(
     /// A wall function that a scene may name.

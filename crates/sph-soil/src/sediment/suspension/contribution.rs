@@ -8,12 +8,10 @@ use sph_core::{Access, StepError, StepLimit, Vect, fields, suggestion};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, WithTerm, World};
 
 use super::exchange::BedExchange;
-use super::plugins::{PickUp, SuspensionEntry};
-use super::settling::Suspended;
 use super::transport::Transport;
 use crate::pores::PhaseMask;
 use crate::sediment::moving_bed::carrier;
-use crate::sediment::{BedLoadEntry, Grains, MovingBed};
+use crate::sediment::{BedLoadEntry, Grains, MovingBed, PickUp, Suspended, SuspensionEntry};
 
 #[cfg(not(test))]
 contributes!("suspension", SuspensionOfScene);

@@ -4,10 +4,8 @@ use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::plugins::PickUp;
-use super::settling::HinderedSettling;
-use crate::sediment::Grains;
 use crate::sediment::bed_shear::WET;
+use crate::sediment::{Grains, HinderedSettling, PickUp};
 
 /// κ of the law of the wall.
 const KARMAN: f64 = 0.41;
