@@ -99,8 +99,7 @@ impl<const D: usize> Contribution<D> for Pores<D> {
         });
         let why = "the pressure in the pores could not be solved for: raise `pore-pressure.darcy.iterations`, or \
                    loosen its `tolerance`";
-        let remedy = ("pore pressure", why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push(("pore pressure", why.into()));
         Ok(())
     }
 }

@@ -41,13 +41,6 @@ pub struct ElasticSubSteps<const D: usize> {
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    pub(crate) fn bound(&self) -> String {
-        format!(
-            "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",
-            self.longest
-        )
-    }
-
     /// N for a step Δt, s.
     pub fn count(&self, dt: f64) -> usize {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize

@@ -159,8 +159,7 @@ impl<const D: usize> Contribution<D> for Laplace {
         offer.saturated = self.pore_density > 0.0;
         let why = "the pressure between the grains could not be solved for: raise \
                    `effective-pressure.laplace.iterations`, or loosen its `tolerance`";
-        let remedy = ("effective pressure", why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push(("effective pressure", why.into()));
         Ok(())
     }
     fn offer_to_readers(

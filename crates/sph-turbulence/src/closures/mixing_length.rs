@@ -72,15 +72,12 @@ impl MixingLength {
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, rates) = world.free.all((fields::DENSITY, fields::STRAIN_RATE))?;
         let distance = world.free.get(WALL_DISTANCE)?;
-        let friction = match world.free.has(FRICTION_VELOCITY.name) {
-            true => world.free.get(FRICTION_VELOCITY)?,
-            false => &[],
-        };
+        let friction = world.free.get(FRICTION_VELOCITY).ok();
         let length = self.length();
         for (i, eddy) in eddies.iter_mut().enumerate() {
             // A particle on the wall has no length and no eddies.
             let z = distance[i].max(f64::MIN_POSITIVE);
-            let friction = friction.get(i).copied().unwrap_or(0.0);
+            let friction = friction.map_or(0.0, |u| u[i]);
             let rate = self.strain_rate(rates[i], z, friction, world.spacing);
             *eddy = density[i] * length.at(z).powi(2) * rate;
         }
@@ -127,11 +124,8 @@ impl Length {
 
     /// The distance beyond which L is the same everywhere, m.
     pub fn farthest(&self) -> f64 {
-        let of_longest = self.longest.map(|l| l / self.karman);
-        match self.depth {
-            Some(depth) => depth,
-            None => of_longest.unwrap_or(f64::INFINITY),
-        }
+        let of_longest = self.longest.map_or(f64::INFINITY, |l| l / self.karman);
+        self.depth.unwrap_or(of_longest)
     }
 }
 

@@ -199,8 +199,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 }
             }
         });
-        if world.free.has(FRICTION_VELOCITY.name) {
-            let friction = world.free.get(FRICTION_VELOCITY)?;
+        if let Ok(friction) = world.free.get(FRICTION_VELOCITY) {
             for (k, (u, z)) in energy.iter_mut().zip(friction.iter().zip(distance)) {
                 if *u > 0.0 && *z < spacing {
                     *k = u * u / KEpsilonModel::C_MU.sqrt();

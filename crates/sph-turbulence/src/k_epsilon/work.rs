@@ -138,10 +138,7 @@ impl<const D: usize> StepHook<D> for Sources {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],
         };
-        let walls = match world.free.has(FRICTION_VELOCITY.name) {
-            true => Some(world.free.all((FRICTION_VELOCITY, WALL_UNITS))?),
-            false => None,
-        };
+        let walls = world.free.all((FRICTION_VELOCITY, WALL_UNITS)).ok();
         let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
             let of_wall = walls.and_then(|(friction, units)| {

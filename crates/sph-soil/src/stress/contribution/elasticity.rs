@@ -122,7 +122,9 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         match self.wave(setting).filter(|_| force.sub_steps()) {
             None => offer.hook(motion),
             Some(wave) => {
-                let longest = wave.longest_sub_step(setting.world);
+                // About half of the 2/max k̂ at which nested differences k̂ on a lattice become unstable (1.73 to 1.76 h for
+                // `wendland-c2` at h = 2δr).
+                let longest = 0.8 * setting.world.kernel.smoothing_length() / wave.speed;
                 let term: OutsideForce<D> = self.term(&**force).into();
                 let sub_steps = ElasticSubSteps {
                     term: term.clone(),
@@ -135,7 +137,10 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
                     behind: 0.0,
                 };
                 offer.outside.push(term);
-                offer.inner_bounds.push(sub_steps.bound());
+                let bound = format!(
+                    "elastic sub-steps: {longest:.2e} s at most, as many within a step as it takes"
+                );
+                offer.inner_bounds.push(bound);
                 offer.hook(sub_steps);
             }
         }
@@ -261,14 +266,6 @@ pub struct ElasticWaveLimit {
     pub speed: f64,
     /// k.
     pub stiffness: f64,
-}
-
-impl ElasticWaveLimit {
-    /// The longest sub-step, s: 0.8 h over the speed, about half of the 2/max k̂ at which nested differences k̂ on a lattice
-    /// become unstable (1.73 to 1.76 h for `wendland-c2` at h = 2δr).
-    pub fn longest_sub_step<const D: usize>(&self, world: &World<D>) -> f64 {
-        0.8 * world.kernel.smoothing_length() / self.speed
-    }
 }
 
 impl<const D: usize> Limiter<D> for ElasticWaveLimit {

@@ -67,8 +67,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         }
         let why = "the friction could not be solved for: name a solver with more iterations \
                    (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
-        let remedy = (ImplicitViscosity::<D>::NAME, why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push((ImplicitViscosity::<D>::NAME, why.into()));
         if self.solved_for() {
             offer.remedy = Some(
                 "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
