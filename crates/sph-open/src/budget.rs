@@ -69,8 +69,7 @@ impl<const D: usize> Faces<D> {
     /// Counts the volumes that the laws request in `dt` seconds up to a `time`, and notes when faces are dry first.
     pub fn ask(&mut self, time: f64, dt: f64) {
         for f in 0..self.faces.len() {
-            let own = self.faces[f].elements.clone();
-            let dry = self.is_dry(own);
+            let dry = self.is_dry(self.faces[f].elements.clone());
             let volumes = &mut self.memory.volumes[f];
             volumes.asked.add(self.asked[f].unwrap_or(0.0) * dt);
             if dry && volumes.dry.is_none() {

@@ -69,8 +69,7 @@ impl<const D: usize> StepHook<D> for BulkVelocity {
         let world = &mut *moment.world;
         let axis = self.axis as usize;
         let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
-        let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
-        let [total, momentum] = world.sums(each)?;
+        let [total, momentum] = world.sums(|i: usize| [mass[i], mass[i] * velocity[i][axis]])?;
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let push = self.velocity - momentum / total;
         velocity.iter_mut().for_each(|u| u[axis] += push);

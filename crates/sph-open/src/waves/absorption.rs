@@ -35,10 +35,8 @@ impl<const D: usize> Face<D> {
     ) -> Option<Self> {
         let points = setting.pieces().flat_map(Drawing::points);
         let points: Vec<Vect<D>> = points.map(Vect::from).collect();
-        let most = |of: &dyn Fn(&Vect<D>) -> f64| {
-            let largest = points.iter().map(of).reduce(f64::max);
-            largest.unwrap_or(0.0)
-        };
+        let most =
+            |of: &dyn Fn(&Vect<D>) -> f64| points.iter().map(of).reduce(f64::max).unwrap_or(0.0);
         let front = most(&|p| p.dot(&along));
         let side = |p: &Vect<D>| match D {
             3 => p[1] * along[0] - p[0] * along[1],

@@ -159,8 +159,7 @@ mod tests {
         for j in 0..40 {
             let kx = 0.157 * f64::from(j);
             let here = eta(kx, 0.2);
-            let all = orbits(amplitude, kx);
-            let water = all.extrapolated(here, 0.2, 1.0);
+            let water = orbits(amplitude, kx).extrapolated(here, 0.2, 1.0);
             let step = 1e-5;
             let rises = (eta(kx, 0.2 + step) - eta(kx, 0.2 - step)) / (2.0 * step);
             let slope = k * (eta(kx + step, 0.2) - eta(kx - step, 0.2)) / (2.0 * step);

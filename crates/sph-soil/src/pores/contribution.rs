@@ -142,8 +142,7 @@ impl<const D: usize> Pores<D> {
         };
         let bodies = settings.bodies.iter();
         let bodies = bodies.map(|(name, n)| (format!("bodies.{name}"), *n));
-        let all = std::iter::once(("porosity".to_string(), settings.porosity));
-        let mut all = all.chain(bodies);
+        let mut all = std::iter::once(("porosity".to_string(), settings.porosity)).chain(bodies);
         let dense = |n: f64| 1.0 - n >= law.densest();
         match all.find(|(_, n)| dense(*n)) {
             None => Ok(soil),
@@ -167,8 +166,7 @@ impl<const D: usize> Pores<D> {
     }
 
     fn supply(&self, setting: &Setting<'_, D>) -> Result<Option<(u32, Supply)>, Refusal> {
-        let darcy = self.settings.darcy.as_ref();
-        let Some(supply) = darcy.and_then(|d| d.supply.clone()) else {
+        let Some(supply) = self.settings.darcy.as_ref().and_then(|d| d.supply.clone()) else {
             return Ok(None);
         };
         let walls = &setting.world.walls;

@@ -138,8 +138,7 @@ impl PoreFlow {
         let outlets = {
             let soil = self.soil.test(world)?;
             let water = self.swelling.as_ref().and_then(|s| s.fluid);
-            let phase = world.free.get(fields::PHASE).ok();
-            let both = water.zip(phase);
+            let both = water.zip(world.free.get(fields::PHASE).ok());
             let fluid = both.map(|(w, p)| move |i: usize| p[i] == w.water);
             let fluid = fluid.as_ref().map(|f| f as &dyn Fn(usize) -> bool);
             outlets(world, &soil, fluid, &self.distance)?

@@ -227,11 +227,10 @@ impl BedLoad {
             return Ok(());
         }
         bed.critical = places.map(|k| self.threshold(bed, k)).collect();
-        let cell = bed.grid.cell[0];
         let packing = Packing {
             porosity: self.bed.porosity,
             repose: self.bed.repose_angle.tan(),
-            slide_time: (cell / self.grains.gravity).sqrt(),
+            slide_time: (bed.grid.cell[0] / self.grains.gravity).sqrt(),
         };
         let step = balance(bed, &bed.transport, &packing, dt);
         bed.rate = step.rate;

@@ -86,8 +86,7 @@ impl<const D: usize> ElasticMotion<D> {
                 let mut yielding = vec![Yielding::NONE; out.len()];
                 elastic.yielding(inputs, &stress, &mut yielding);
                 let moved = gradient[run.clone()].iter().zip(&velocity[run]);
-                let all = out.iter_mut().zip(yielding).zip(moved);
-                all.for_each(
+                out.iter_mut().zip(yielding).zip(moved).for_each(
                     |((memory, yielding), (gradient, velocity))| match yielding.forgets {
                         true => *memory = Memory::none(),
                         false => memory.advance(elastic, &in_space(gradient), velocity, dt),

@@ -129,8 +129,7 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
         let space = world.space()?;
         // Whether copies of others' particles have soil around, their owners know.
         space.refresh_marked(&mut self.touched, |touched| *touched, |_, touched| touched);
-        let particles = world.free.len();
-        self.acceleration.resize(particles, Vect::zeros());
+        self.acceleration.resize(world.free.len(), Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);
         let before = world.free.get(fields::VELOCITY)?;
         self.mean.clear();

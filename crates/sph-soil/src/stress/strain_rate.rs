@@ -135,8 +135,7 @@ pub(crate) struct BoundGradient<'a, const D: usize> {
 impl<const D: usize> BoundGradient<'_, D> {
     #[inline(always)]
     fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
-        let own = &self.velocity[at.particle];
-        let gathered = Gathered::new(free, own, self.walls, at);
+        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
         gathered.gradient(self.formula, at.inverse_renormalisation)
     }
 }

@@ -116,8 +116,7 @@ impl Smagorinsky {
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
-        let rates = world.free.get(self.strain_rate())?;
-        let inputs = density.iter().zip(rates);
+        let inputs = density.iter().zip(world.free.get(self.strain_rate())?);
         for (eddy, (rho, rate)) in eddies.iter_mut().zip(inputs) {
             *eddy = rho * self.kinematic(width, *rate);
         }

@@ -80,8 +80,7 @@ fn shifts<const D: usize>(domain: &Domain<D>) -> Vec<Vect<D>> {
     for axis in (0..D).filter(|k| domain.periodic[*k]) {
         let mut step = Vect::<D>::zeros();
         step[axis] = domain.length(axis);
-        let moved = all.iter().flat_map(|s| [s + step, s - step]);
-        let moved: Vec<_> = moved.collect();
+        let moved: Vec<_> = all.iter().flat_map(|s| [s + step, s - step]).collect();
         all.extend(moved);
     }
     all

@@ -152,8 +152,7 @@ impl<const D: usize> Limiter<D> for DiffusionLimit {
         let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
-        let both = acting.map(|((eta, rho), _)| eta / rho);
-        let largest = both.fold(0.0, f64::max);
+        let largest = (acting.map(|((eta, rho), _)| eta / rho)).fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
         Ok(StepLimit::new("turbulence", self.0 * h * h / largest))
     }

@@ -182,8 +182,7 @@ pub(crate) fn refuse_negative<const D: usize>(
     acts: impl Fn(usize) -> bool,
 ) -> Result<(), StepError> {
     let bad = |i: usize, v: f64| acts(i) && !(v > 0.0 && v.is_finite());
-    let found = values.iter().enumerate().position(|(i, v)| bad(i, *v));
-    let Some(i) = found else {
+    let Some(i) = values.iter().enumerate().position(|(i, v)| bad(i, *v)) else {
         return Ok(());
     };
     let position = world.free.get(fields::POSITION)?[i];
