@@ -8,7 +8,6 @@ use sph_neighbours::World;
 
 use crate::columns::WALL_DISTANCE;
 
-pub use tree::ElementTree;
 pub(crate) use tree::KeptTree;
 
 /// [`WALL_DISTANCE`]: the true distance from the nearest of the named walls, of all if none is named, by their elements;

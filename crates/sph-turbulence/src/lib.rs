@@ -31,12 +31,9 @@ pub use columns::{
     FRICTION_VELOCITY, LAST_STRAIN, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
     WALL_DISTANCE, WALL_UNITS,
 };
-pub use distance::ElementTree;
 pub use energy_probe::TurbulentEnergyProbe;
 pub use k_epsilon::{
     AlgebraicStress, Anisotropy, AtWall, ChannelStart, KEpsilon, KEpsilonModel, KLength,
     RealisableModel, Variant,
 };
-pub use wall::{
-    FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw, WallLawError,
-};
+pub use wall::{FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw};

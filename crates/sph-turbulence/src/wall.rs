@@ -9,7 +9,7 @@ use sph_core::Vect;
 use sph_neighbours::{Contact, WallSet};
 
 pub use function::{LogLaw, WallFunctionEntry};
-pub use law::{WallLaw, WallLawError};
+pub use law::WallLaw;
 pub use probe::FrictionVelocityProbe;
 pub use solution::LogLawFlow;
 

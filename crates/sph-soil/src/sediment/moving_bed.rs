@@ -244,7 +244,7 @@ impl BedLoad {
 fn flow(bed: &Bed, place: usize) -> Option<(f64, [f64; 2])> {
     let [x, y] = bed.shear[place];
     let squared = x.hypot(y);
-    (squared > 0.0).then(|| (squared, [x / squared, y / squared]))
+    (squared != 0.0).then(|| (squared, [x / squared, y / squared]))
 }
 
 /// ∇z at a place, by the levels on both sides of it.

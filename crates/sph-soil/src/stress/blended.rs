@@ -85,7 +85,7 @@ impl<const D: usize> RowTerm<D> for BoundBlended<'_, D> {
         if share == 1.0 {
             return self.term.row(at, rates);
         }
-        let mut whole = nothing();
+        let mut whole = Rates::from_acceleration(Vect::zeros());
         self.term.row(at, &mut whole);
         let apart = self.of_others(at);
         rates.acceleration +=
@@ -97,14 +97,10 @@ impl<const D: usize> RowTerm<D> for BoundBlended<'_, D> {
     }
 }
 
-fn nothing<const D: usize>() -> Rates<D> {
-    Rates::from_acceleration(Vect::zeros())
-}
-
 impl<const D: usize> BoundBlended<'_, D> {
     /// The part of neighbours that act wholly.
     fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
-        let mut rates = nothing();
+        let mut rates = Rates::from_acceleration(Vect::zeros());
         let Some((phase, apart)) = self.apart else {
             return rates;
         };

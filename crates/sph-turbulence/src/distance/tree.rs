@@ -5,7 +5,7 @@ use sph_neighbours::{Domain, WallSet, World};
 
 /// Boxes around the elements of walls, for the true distance to the nearest of them, periodic images included.
 #[derive(Clone, Debug)]
-pub struct ElementTree<const D: usize> {
+pub(crate) struct ElementTree<const D: usize> {
     corners: Vec<[Vect<D>; D]>,
     /// Number of each in the set of walls.
     element: Vec<u32>,

@@ -104,7 +104,7 @@ impl LogLaw {
 impl<const D: usize> Contribution<D> for LogLaw {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::at_key(KIND, key, why);
-        self.law().check().map_err(|e| refused("", e.to_string()))?;
+        self.law().check().map_err(|why| refused("", why))?;
         self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;
         if self.roughness > setting.world.spacing {
