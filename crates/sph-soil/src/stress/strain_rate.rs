@@ -25,14 +25,6 @@ pub struct GradientStage<const D: usize> {
     pub phases: Option<Arc<[bool]>>,
 }
 
-impl<const D: usize> GradientStage<D> {
-    /// For the particles of all phases.
-    pub fn everywhere(formula: Arc<dyn VelocityGradient<D>>) -> Self {
-        let phases = None;
-        GradientStage { formula, phases }
-    }
-}
-
 impl<const D: usize> Declares for GradientStage<D> {
     fn name(&self) -> String {
         "velocity gradient".into()
