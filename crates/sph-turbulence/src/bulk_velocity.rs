@@ -38,18 +38,13 @@ pub struct BulkVelocity {
 impl<const D: usize> Contribution<D> for BulkVelocity {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let axis = self.axis as usize;
-        match axis < D && setting.world.domain.periodic[axis] {
-            true => {
-                offer.hook(*self);
-                Ok(())
-            }
-            false => Err(Refusal::at_key(
-                "flow-control",
-                "axis",
-                "the flow rate is held along an axis in which the scene is periodic: name another, or give \
-                 `[numerics.periodic]` this one",
-            )),
+        if axis < D && setting.world.domain.periodic[axis] {
+            offer.hook(*self);
+            return Ok(());
         }
+        let why = "the flow rate is held along an axis in which the scene is periodic: name another, or give \
+                   `[numerics.periodic]` this one";
+        Err(Refusal::at_key("flow-control", "axis", why))
     }
 }
 

@@ -48,16 +48,13 @@ impl RoughBed {
             );
             return refused("bed.phase", why);
         }
-        let spacing = setting.world.spacing;
-        match self.roughness >= 0.0 && self.roughness <= spacing {
-            true => Ok(()),
-            false => refused(
-                "bed.roughness",
-                format!(
-                    "a roughness from 0 to the spacing of {spacing} m was expected, found {} m",
-                    self.roughness
-                ),
-            ),
+        let (roughness, spacing) = (self.roughness, setting.world.spacing);
+        if roughness >= 0.0 && roughness <= spacing {
+            return Ok(());
         }
+        let why = format!(
+            "a roughness from 0 to the spacing of {spacing} m was expected, found {roughness} m"
+        );
+        refused("bed.roughness", why)
     }
 }

@@ -32,7 +32,8 @@ pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
 impl ClosureCommon<'_> {
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
-        check(self.name, self.phases, setting)?;
+        let name = self.name;
+        check(name, self.phases, setting)?;
         if let Some(bed) = self.bed {
             bed.check(self.phases, setting)?;
         }
@@ -40,9 +41,8 @@ impl ClosureCommon<'_> {
             let walls = &setting.world.walls;
             if walls.elements.centre.is_empty() {
                 let why = format!(
-                    "`{}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
-                     with `[walls.usaw]`",
-                    self.name
+                    "`{name}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
+                     with `[walls.usaw]`"
                 );
                 return refused("", why);
             }

@@ -158,12 +158,9 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
             return Ok(());
         }
         if !rubs(setting) {
-            return Err(Refusal::at_key(
-                KIND,
-                "damping",
-                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
-                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
-            ));
+            let why = "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
+                       `[walls.usaw]` and a wall with `condition = \"no-slip\"`";
+            return Err(Refusal::at_key(KIND, "damping", why));
         }
         offer.stage(wall_units(viscosities(&self.phases, setting)));
         Ok(())

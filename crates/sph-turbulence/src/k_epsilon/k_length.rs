@@ -122,12 +122,9 @@ impl<const D: usize> Contribution<D> for KLength {
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("k-length", access), set, offer)?;
         if rubs(setting) && setting.phases.len() == 1 {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
-                 the walls in `[wall-function.log-law]`",
-            ));
+            let why = "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` \
+                       there and name the walls in `[wall-function.log-law]`";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         offer.transported.push(Evolved {
             value: TURBULENT_ENERGY,

@@ -136,19 +136,14 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         let set = move |world: &World<D>, eddies: &mut [f64]| variant.set(world, eddies);
         common.offer_to(setting, ("k-epsilon", access), set, offer)?;
         if self.start(0.0).is_none() {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
-            ));
+            let why = "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or \
+                       `channel` alone";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         if rubs(setting) && setting.phases.len() == 1 {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k and ε have no values at walls that rub without a wall function: write `condition = \"free-slip\"` there \
-                 and name the walls in `[wall-function.log-law]`",
-            ));
+            let why = "k and ε have no values at walls that rub without a wall function: write `condition = \
+                       \"free-slip\"` there and name the walls in `[wall-function.log-law]`";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         let both = [
             (TURBULENT_ENERGY, TURBULENT_ENERGY_RATE),

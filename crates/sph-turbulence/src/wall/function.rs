@@ -80,11 +80,9 @@ impl LogLaw {
         }
         let elements = &walls.elements;
         if elements.centre.is_empty() || walls.points.in_density() {
-            return Err(
-                "it acts on semi-analytical walls without vertices, whose points would rub as well: write `[walls.usaw]` \
-                 with `vertices = false`"
-                    .into(),
-            );
+            let why = "it acts on semi-analytical walls without vertices, whose points would rub as well: write \
+                       `[walls.usaw]` with `vertices = false`";
+            return Err(why.into());
         }
         for (s, wall) in elements.wall.iter().enumerate() {
             let name = &walls.names[*wall as usize];
@@ -107,23 +105,18 @@ impl<const D: usize> Contribution<D> for LogLaw {
         self.law().check().map_err(|why| refused("", why))?;
         self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;
-        if self.roughness > setting.world.spacing {
-            return Err(refused(
-                "roughness",
-                format!(
-                    "the roughness of {} m is larger than the spacing of {} m, so that particles would lie within it: at \
-                     most the spacing was expected; draw such a wall",
-                    self.roughness, setting.world.spacing
-                ),
-            ));
+        let (roughness, spacing) = (self.roughness, setting.world.spacing);
+        if roughness > spacing {
+            let why = format!(
+                "the roughness of {roughness} m is larger than the spacing of {spacing} m, so that particles would lie \
+                 within it: at most the spacing was expected; draw such a wall"
+            );
+            return Err(refused("roughness", why));
         }
         if !setting.viscosities.iter().any(is_viscous) {
-            return Err(refused(
-                "",
-                "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a phase \
-                 `rheology.newtonian` with a viscosity"
-                    .into(),
-            ));
+            let why = "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a \
+                       phase `rheology.newtonian` with a viscosity";
+            return Err(refused("", why.into()));
         }
         offer.goals.push(fields::WALL_FRICTION.any());
         let viscous = |nu: &Option<f64>| nu.filter(|_| is_viscous(nu));
@@ -148,13 +141,13 @@ fn range<const D: usize>(world: &World<D>) -> Result<Report, StepError> {
     // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
     let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
     let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
-    if !least.is_finite() || (VALID[0]..=VALID[1]).contains(&least) {
+    let [low, high] = VALID;
+    if !least.is_finite() || (low..=high).contains(&least) {
         return Ok(Report::default());
     }
     Ok(Report::advice(format!(
         "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is meant for \
-         {} to {}, so change the spacing",
-        VALID[0], VALID[1]
+         {low} to {high}, so change the spacing"
     )))
 }
 

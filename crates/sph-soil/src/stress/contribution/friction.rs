@@ -69,16 +69,14 @@ impl<const D: usize> Contribution<D> for Friction<D> {
                    (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
         (offer.remedies_of_failures).push((ImplicitViscosity::<D>::NAME, why.into()));
         if self.solved_for() {
-            offer.remedy = Some(
-                "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
-                    .into(),
-            );
+            let remedy = "it is solved for, so look at the rheology: a smaller largest viscosity, or another \
+                          [linear-solver]";
+            offer.remedy = Some(remedy.into());
             return Ok(());
         }
-        offer.remedy = Some(
-            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it"
-                .into(),
-        );
+        let remedy =
+            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it";
+        offer.remedy = Some(remedy.into());
         if !materials.inviscid() {
             let term = materials.operator.term(viscosity);
             match materials.law_inputs().blend {
