@@ -150,11 +150,9 @@ impl<const D: usize> Faces<D> {
             Some(first) => format!("no fluid was before it, {first}"),
             None => "the particles before it went otherwise".into(),
         };
+        let [passed, asked, share] = [passed, asked, 100.0 * more].map(f64::abs);
         Some(format!(
-            "`{name}` has let pass {:.4} {unit} for the {:.4} {unit} that it asks for, {:.1} % {than}: {why}",
-            passed.abs(),
-            asked.abs(),
-            100.0 * more.abs()
+            "`{name}` has let pass {passed:.4} {unit} for the {asked:.4} {unit} that it asks for, {share:.1} % {than}: {why}"
         ))
     }
 }

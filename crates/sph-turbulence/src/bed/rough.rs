@@ -49,7 +49,7 @@ impl RoughBed {
             return refused("bed.phase", why);
         }
         let (roughness, spacing) = (self.roughness, setting.world.spacing);
-        if roughness >= 0.0 && roughness <= spacing {
+        if (0.0..=spacing).contains(&roughness) {
             return Ok(());
         }
         let why = format!(
