@@ -103,15 +103,12 @@ impl Profile {
     /// Refuses faces along which it has no coordinates.
     pub(crate) fn fit<const D: usize>(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         let flat = D == 2 || places.iter().all(|place| place.rectangle.is_some());
-        match self {
-            Profile::Uniform => Ok(()),
-            _ if flat => Ok(()),
-            _ => refuse(
-                "profile",
-                "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
-                 `uniform`, or draw the face as a `box` with its other five sides in `open`",
-            ),
+        if flat || *self == Profile::Uniform {
+            return Ok(());
         }
+        let why = "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
+                   `uniform`, or draw the face as a `box` with its other five sides in `open`";
+        refuse("profile", why)
     }
 }
 

@@ -92,10 +92,7 @@ impl Drainage {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        solved.map_err(|e| StepError::Stage {
-            stage: "pore pressure".into(),
-            reason: e.to_string(),
-        })?;
+        solved.map_err(|e| StepError::stage("pore pressure", e))?;
         let column = world.free.get_mut(EXCESS_PORE_PRESSURE)?;
         let both = column.iter_mut().zip(excess);
         both.for_each(|(column, p)| *column = p[0]);
