@@ -69,8 +69,7 @@ impl<const D: usize> Faces<D> {
     /// Counts the volumes that the laws request in `dt` seconds up to a `time`, and notes when faces are dry first.
     pub fn ask(&mut self, time: f64, dt: f64) {
         for f in 0..self.faces.len() {
-            let own = self.faces[f].elements.clone();
-            let dry = self.is_dry(own);
+            let dry = self.is_dry(self.faces[f].elements.clone());
             let volumes = &mut self.memory.volumes[f];
             volumes.asked.add(self.asked[f].unwrap_or(0.0) * dt);
             if dry && volumes.dry.is_none() {
@@ -79,7 +78,6 @@ impl<const D: usize> Faces<D> {
         }
     }
 
-    /// True if no fluid is before any of some elements.
     fn is_dry(&self, mut own: Range<usize>) -> bool {
         own.all(|k| !self.inside[k].wet)
     }
@@ -152,11 +150,9 @@ impl<const D: usize> Faces<D> {
             Some(first) => format!("no fluid was before it, {first}"),
             None => "the particles before it went otherwise".into(),
         };
+        let [passed, asked, share] = [passed, asked, 100.0 * more].map(f64::abs);
         Some(format!(
-            "`{name}` has let pass {:.4} {unit} for the {:.4} {unit} that it asks for, {:.1} % {than}: {why}",
-            passed.abs(),
-            asked.abs(),
-            100.0 * more.abs()
+            "`{name}` has let pass {passed:.4} {unit} for the {asked:.4} {unit} that it asks for, {share:.1} % {than}: {why}"
         ))
     }
 }

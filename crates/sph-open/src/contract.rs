@@ -46,7 +46,6 @@ pub struct FluidMean<const D: usize> {
 }
 
 impl<const D: usize> FluidMean<D> {
-    /// The mean where there is no fluid.
     pub(crate) fn nothing() -> Self {
         FluidMean {
             wet: false,
@@ -126,7 +125,6 @@ impl<const D: usize> Moment<D> {
 /// A key of a law's table, and its fault: of the same form as that of a mover.
 pub type OpenRefusal = MoverRefusal;
 
-/// The refusal of a key.
 pub(crate) fn refuse<T>(key: &str, why: impl Into<String>) -> Result<T, OpenRefusal> {
     Err(OpenRefusal::at_key(key, why))
 }

@@ -12,9 +12,8 @@ use sph_neighbours::World;
 use sph_rheology::state::{BoundState, Laws};
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
-use crate::flux::OPEN_FLUX;
 use crate::walls::OpenWalls;
-use crate::{Entering, OpenBoundary, OpenRefusal};
+use crate::{Entering, OPEN_FLUX, OpenBoundary, OpenRefusal};
 
 /// Parts of the run at the ends of which the course of a law is checked.
 const COURSE: usize = 4096;
@@ -22,7 +21,6 @@ const COURSE: usize = 4096;
 /// The open faces of a scene as a contribution.
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
-    /// True if the formulation sums densities.
     summed: bool,
 }
 
@@ -162,7 +160,6 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
 
 const NAME: &str = "open boundaries";
 
-/// Lets mass through.
 #[derive(Clone)]
 pub(crate) struct FacePassing<const D: usize> {
     pub faces: SharedFaces<D>,
@@ -174,20 +171,15 @@ pub(crate) struct FacePassing<const D: usize> {
 impl<const D: usize> FacePassing<D> {
     fn columns(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .here(fields::VELOCITY)
-            .here(fields::MASS)
-            .here(fields::DENSITY)
-            .here(fields::RENORMALISATION)
-            .here(fields::IDENTITY)
+            .both((fields::POSITION, fields::VOLUME))
+            .here((fields::VELOCITY, fields::MASS, fields::DENSITY))
+            .here((fields::RENORMALISATION, fields::IDENTITY))
             .writes(fields::VELOCITY)
             .where_there(fields::PHASE);
         match self.summed {
             false => access,
             true => access
-                .here(OPEN_FLUX)
-                .here(fields::DENSITY_CONSTANT)
+                .here((OPEN_FLUX, fields::DENSITY_CONSTANT))
                 .remembers(OPEN_FLUX)
                 .writes(fields::DENSITY_CONSTANT),
         }

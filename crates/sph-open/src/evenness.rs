@@ -35,8 +35,7 @@ impl<const D: usize> Faces<D> {
         }
         let mut kicks = std::mem::take(&mut self.kicks);
         kicks.resize(world.free.len(), Vect::zeros());
-        let mass = world.free.get(fields::MASS)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (mass, volume) = world.free.all((fields::MASS, fields::VOLUME))?;
         let elements = 0..self.elements.len();
         let taken: Vec<f64> = elements.map(|k| self.taken_out(k)).collect();
         let mut before = std::mem::take(&mut self.before);
@@ -76,7 +75,7 @@ impl<const D: usize> Faces<D> {
             true => 1.0,
             false => 1.0 / (1.0 + rows * rows),
         };
-        now - slow + (1.0 - stays) * (slow + self.background(self.phase(k)))
+        now - slow + (1.0 - stays) * (slow + self.backgrounds[self.phase(k)])
     }
 
     /// Pressure of the faces that a particle sees, as far as it is `taken` out of their elements, Pa: 0 where it sees none.

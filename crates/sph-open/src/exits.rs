@@ -17,7 +17,6 @@ const NEAREST: [f64; 2] = [0.8, 0.9];
 /// Least distance of a new particle from the face, over the spacing: on the fluid's side under any rounding.
 const IN_FRONT: f64 = 1e-6;
 
-/// Particles that pass faces at the end of a step.
 #[derive(Default)]
 pub(crate) struct Exits<const D: usize> {
     /// Particles here, each with the number of its face.
@@ -26,7 +25,6 @@ pub(crate) struct Exits<const D: usize> {
     pub places: Vec<Vect<D>>,
 }
 
-/// A particle behind a face.
 #[derive(Clone, Copy)]
 struct LeavingParticle<const D: usize> {
     identity: u64,
@@ -133,8 +131,7 @@ impl<const D: usize> Faces<D> {
         &self,
         world: &World<D>,
     ) -> Result<Vec<(u32, f64, LeavingParticle<D>)>, StepError> {
-        let position = world.free.get(fields::POSITION)?;
-        let identity = world.free.get(fields::IDENTITY)?;
+        let (position, identity) = world.free.all((fields::POSITION, fields::IDENTITY))?;
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();
         let mut all = Vec::new();

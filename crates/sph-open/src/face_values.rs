@@ -99,13 +99,11 @@ impl<const D: usize> Faces<D> {
             return 0.0;
         }
         let normal = &self.places[k].normal;
-        let wet = self.smooth[k]
-            .iter()
-            .filter(|(j, _)| self.inside[*j as usize].wet);
         let (mut whole, mut mean) = (0.0, 0.0);
-        for (j, w) in wet {
+        let around = self.smooth[k].iter().map(|(j, w)| (*j as usize, w));
+        for (j, w) in around.filter(|(j, _)| self.inside[*j].wet) {
             whole += w;
-            mean += w * self.outside[*j as usize].velocity.dot(normal);
+            mean += w * self.outside[j].velocity.dot(normal);
         }
         inside.pressure + inside.impedance * (mean / whole - inside.velocity.dot(normal))
     }
@@ -124,7 +122,6 @@ impl<const D: usize> Faces<D> {
         world.agreed(looked, looks, |k| self.nothing(k))
     }
 
-    /// The mean where no particle is near.
     pub(crate) fn nothing(&self, k: usize) -> AdjacentFluid<D> {
         let mut nothing = AdjacentFluid::new(self.whole.len());
         if self.memory.dt > 0.0 {
@@ -134,7 +131,6 @@ impl<const D: usize> Faces<D> {
         nothing
     }
 
-    /// Means over the fluid before an element.
     fn means_before(
         &self,
         world: &World<D>,
@@ -163,7 +159,7 @@ impl<const D: usize> Faces<D> {
             let j = *j;
             let vw = columns.volume[j] * w;
             let phase = columns.phase.map_or(0, |p| p[j] as usize);
-            let over = columns.pressure[j] - self.background(phase);
+            let over = columns.pressure[j] - self.backgrounds[phase];
             filling += vw;
             reach -= vw * apart.dot(&place.normal);
             mix[phase] += vw;
@@ -186,14 +182,12 @@ impl<const D: usize> Faces<D> {
             z = of_phase.density * self.laws[q].sound_speed(rho) / filled;
             reach = (reach / filling).max(0.0);
         }
-        let (mean_pressure, mean) = match self.memory.dt > 0.0 {
-            true => self.memory.mean[k],
-            false => (p, u),
-        };
+        let remembered = (self.memory.dt > 0.0).then(|| self.memory.mean[k]);
+        let (mean_pressure, mean) = remembered.unwrap_or((p, u));
         seen.inside = FluidMean {
             wet: filling >= WET,
             pressure: p,
-            filled: (row.volume() / (FULL * self.full[k].volume)).min(1.0),
+            filled: (row.volume / (FULL * self.full[k].volume)).min(1.0),
             velocity: u,
             impedance: if z > 0.0 { z } else { 1.0 },
             density: rho,
@@ -203,12 +197,11 @@ impl<const D: usize> Faces<D> {
         seen.reach = reach;
         let nearest = room.distance2.iter().copied().fold(f64::INFINITY, f64::min);
         seen.nearest = nearest.sqrt();
-        seen.lacks = (self.full[k].weight - row.weight()) / self.full[k].at_port;
+        seen.lacks = (self.full[k].weight - row.weights[0]) / self.full[k].at_port;
         seen.row = row.velocity(self.spacing).unwrap_or(u);
     }
 }
 
-/// Columns of the particles before faces.
 struct Columns<'a, const D: usize> {
     position: &'a [Vect<D>],
     velocity: &'a [Vect<D>],
@@ -240,7 +233,6 @@ struct Sums<const D: usize> {
     velocity: Vect<D>,
 }
 
-/// Buffers of a task.
 #[derive(Default)]
 struct Scratch<const D: usize> {
     /// Particles within the support of an element's centre, and the ways from them to it, m.
@@ -266,15 +258,13 @@ impl<const D: usize> Scratch<D> {
         self.distance2.clear();
         let limit = world.kernel.support_radius().powi(2);
         for &j in candidates {
-            let apart = world
-                .domain
-                .nearest_image(place.centre - position[j as usize]);
+            let j = j as usize;
+            let apart = world.domain.nearest_image(place.centre - position[j]);
             let r2 = apart.norm_squared();
-            if r2 >= limit {
-                continue;
+            if r2 < limit {
+                self.near.push((j, apart));
+                self.distance2.push(r2);
             }
-            self.near.push((j as usize, apart));
-            self.distance2.push(r2);
         }
         self.value.resize(self.near.len(), 0.0);
         world.kernel.value(&self.distance2, &mut self.value);

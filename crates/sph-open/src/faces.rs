@@ -41,7 +41,6 @@ const THINNEST: f64 = 0.5;
 /// An element that is not open.
 pub(crate) const CLOSED: u32 = u32::MAX;
 
-/// One open face.
 pub(crate) struct Face<const D: usize> {
     pub name: String,
     pub law: Arc<dyn OpenBoundary<D>>,
@@ -225,11 +224,6 @@ impl<const D: usize> Faces<D> {
         own.filter(|q| mix[*q] > 0.0).unwrap_or_else(|| most(mix))
     }
 
-    /// Pressure of a phase at its reference density, Pa.
-    pub fn background(&self, phase: usize) -> f64 {
-        self.backgrounds[phase]
-    }
-
     /// Density of the fluid that passes at an element, kg/m³.
     pub fn density(&self, element: usize, phase: usize) -> f64 {
         self.density_at(self.outside[element].pressure, phase)
@@ -239,7 +233,7 @@ impl<const D: usize> Faces<D> {
     /// this: characteristics are linear, and may lead to a tension at which the law has no density.
     pub fn density_at(&self, pressure: f64, phase: usize) -> f64 {
         let law = &self.laws[phase];
-        let density = law.density(pressure + self.background(phase));
+        let density = law.density(pressure + self.backgrounds[phase]);
         density.max(THINNEST * law.reference().density)
     }
 
@@ -269,7 +263,7 @@ impl<const D: usize> Faces<D> {
         for (k, own) in self.elements.iter().enumerate() {
             let v = first + k;
             let outside = &self.outside[k];
-            let pressure = outside.pressure + self.background(self.phase(k));
+            let pressure = outside.pressure + self.backgrounds[self.phase(k)];
             let through = self.through(k);
             for s in own.iter().map(|s| *s as usize) {
                 walls.elements.pressure[s] = pressure;

@@ -1,11 +1,9 @@
 //! The laws that are built in.
 
-mod outflow;
 mod pressure;
 mod velocity_inlet;
 
-pub use outflow::Outflow;
-pub use pressure::{Level, Pressure};
+pub use pressure::{Level, Outflow, Pressure};
 pub use velocity_inlet::{FlowRate, VelocityInlet};
 
 use sph_core::Vect;

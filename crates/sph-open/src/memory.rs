@@ -55,7 +55,6 @@ impl Volumes {
     }
 }
 
-/// The memory of all faces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Memory<const D: usize> {
     /// Mass at every port of every phase, kg, phases innermost.

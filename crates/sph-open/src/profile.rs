@@ -62,7 +62,6 @@ impl Profile {
         }
     }
 
-    /// The largest factor.
     pub(crate) fn largest(&self) -> f64 {
         let (along, across) = match self {
             Profile::Surface(_) => (100, 100),
@@ -104,15 +103,12 @@ impl Profile {
     /// Refuses faces along which it has no coordinates.
     pub(crate) fn fit<const D: usize>(&self, places: &[FaceElement<D>]) -> Result<(), OpenRefusal> {
         let flat = D == 2 || places.iter().all(|place| place.rectangle.is_some());
-        match self {
-            Profile::Uniform => Ok(()),
-            _ if flat => Ok(()),
-            _ => refuse(
-                "profile",
-                "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
-                 `uniform`, or draw the face as a `box` with its other five sides in `open`",
-            ),
+        if flat || *self == Profile::Uniform {
+            return Ok(());
         }
+        let why = "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
+                   `uniform`, or draw the face as a `box` with its other five sides in `open`";
+        refuse("profile", why)
     }
 }
 
@@ -141,7 +137,6 @@ pub(crate) fn check_table(key: &str, table: &[[f64; 2]]) -> Result<(), OpenRefus
 /// Times, s, and factors of a value between which it goes straight: `[[0, 0], [0.5, 1], [10, 1]]`.
 pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
 
-/// The factor at a time.
 pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
     course
         .as_ref()

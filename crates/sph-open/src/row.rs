@@ -34,7 +34,6 @@ impl<const D: usize> AdjacentFluid<D> {
         }
     }
 
-    /// Calls a function with every number.
     fn each(&mut self, mut visit: impl FnMut(&mut f64)) {
         let inside = &mut self.inside;
         visit(&mut inside.pressure);
@@ -71,13 +70,13 @@ impl<const D: usize> Words for AdjacentFluid<D> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<const D: usize> {
     /// Σ w, Σ w t and Σ w t², with t along the first axis of the face.
-    weights: [f64; 3],
+    pub weights: [f64; 3],
     /// Σ w s, Σ w s t and Σ w s², with s along the second; 0 in the plane.
     across: [f64; 3],
     /// Σ w u, Σ w t u and Σ w s u.
     velocities: [Vect<D>; 3],
     /// Volume of those that [stand](row_weight) before the place.
-    volume: f64,
+    pub volume: f64,
 }
 
 /// Share with which a row counts a particle beside a place by the square of a distance, m²: exp(−2 t²/δr²).
@@ -130,16 +129,6 @@ impl<const D: usize> Row<D> {
             all.for_each(|(sum, x)| *sum += x);
             self.velocities[2] += u * (w * s);
         }
-    }
-
-    /// Volume before the place, m^d.
-    pub fn volume(&self) -> f64 {
-        self.volume
-    }
-
-    /// Σ w of all that were added.
-    pub fn weight(&self) -> f64 {
-        self.weights[0]
     }
 
     /// The velocity at the place; nothing where no particle is near.

@@ -172,7 +172,6 @@ impl DruckerPrager {
         }
     }
 
-    /// The numbers of a batch.
     fn bound(&self) -> YieldConstants {
         let (slope, constant) = self.cone.coefficients(self.friction_angle, self.cohesion);
         YieldConstants {

@@ -69,8 +69,6 @@ impl Elastic for ElasticSolid {
         }
     }
     fn carried(&self, _inputs: &Inputs<'_>, stress: &[Symmetric], carried: &mut [Symmetric]) {
-        for (carried, stress) in carried.iter_mut().zip(stress) {
-            *carried = *stress;
-        }
+        carried.copy_from_slice(stress);
     }
 }

@@ -108,8 +108,7 @@ mod tests {
             (1000.0, [300.0, 299.04354, 234.21708, 37.271793, 3.8457737]),
         ];
         for (pressure, row) in table {
-            let found = viscosities(&pile(), pressure, &rates);
-            for (eta, table) in found.iter().zip(row) {
+            for (eta, table) in viscosities(&pile(), pressure, &rates).iter().zip(row) {
                 assert!((eta / table - 1.0).abs() < 1e-6, "{pressure}: {eta}");
             }
         }

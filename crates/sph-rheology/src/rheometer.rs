@@ -7,7 +7,6 @@ use sph_core::Symmetric;
 
 use crate::{Inputs, Rheology};
 
-/// Place of τ_xy in a [`Symmetric`].
 const XY: usize = 3;
 
 /// Effective viscosities η at strain rates γ̇ (1/s) and one pressure (Pa), Pa s; ηγ̇ is the shear
@@ -60,7 +59,6 @@ pub fn shear_stresses(
     stresses.collect()
 }
 
-/// The inputs that the law needs.
 fn inputs<'a>(law: &dyn Rheology, strain_rate: &'a [f64], pressure: &'a [f64]) -> Inputs<'a> {
     let needs = law.needs();
     let asked = |needed: bool, column: &'a [f64]| if needed { column } else { &[] };
@@ -73,7 +71,7 @@ fn inputs<'a>(law: &dyn Rheology, strain_rate: &'a [f64], pressure: &'a [f64]) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Bingham, Cone, DruckerPrager, ElasticSolid, Regularisation};
+    use crate::{Bingham, DruckerPrager, ElasticSolid, Regularisation};
 
     #[test]
     fn a_sheared_solid_follows_the_sine_whatever_the_rate() {
@@ -96,18 +94,9 @@ mod tests {
 
     #[test]
     fn a_soil_comes_to_its_yield_stress_slowly_or_at_once() {
-        let soil = DruckerPrager {
-            young_modulus: 0.8e6,
-            poisson_ratio: 0.3,
-            friction_angle: 30_f64.to_radians(),
-            cohesion: 0.0,
-            grain_diameter: 3.9e-3,
-            grain_density: 2700.0,
-            blending_order: 2.0,
-            cone: Cone::Tan,
-            smallest_viscosity: 0.0,
-            damping: 0.0,
-        };
+        let table = "young_modulus = 0.8e6\npoisson_ratio = 0.3\nfriction_angle = 0.5235987755982988\ncone = 'tan'\n\
+                     grain_diameter = 3.9e-3\ngrain_density = 2700.0";
+        let soil: DruckerPrager = toml::from_str(table).expect("a law");
         let yielding = soil.yield_stress(1000.0);
         let modulus = 0.8e6 / 2.6;
         let strains: Vec<f64> = (0..=400).map(|k| 1e-5 * f64::from(k)).collect();

@@ -5,12 +5,10 @@
 
 mod compressible_grains;
 mod eos;
-mod linear;
 mod tait;
 
 pub use compressible_grains::CompressibleGrains;
 #[cfg(feature = "plugins")]
 pub use eos::EquationOfStateEntry;
 pub use eos::{BoundState, EquationOfState, Laws, Lift, Lifted, Reference};
-pub use linear::Linear;
-pub use tait::Tait;
+pub use tait::{Linear, Tait};

@@ -82,7 +82,6 @@ pub struct HerschelBulkley {
 }
 
 impl HerschelBulkley {
-    /// The law without its yield stress.
     fn viscous_part(&self) -> PowerLaw {
         PowerLaw {
             consistency: self.consistency,

@@ -5,7 +5,7 @@
 //! * The effective pressure becomes p' = p'_d − p_e, with the [`DRAINED_PRESSURE`] p'_d of the kind `effective-pressure`.
 //! * A soil that expands takes up fluid, from the particles of the fluid at its surface or from one that is left out.
 
-mod contract;
+mod columns;
 mod contribution;
 mod drainage;
 mod effective;
@@ -14,8 +14,6 @@ mod pore_flow;
 mod surface;
 mod swelling;
 
-pub use contract::{
-    DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING, Permeability, PoreModel,
-    PorePressureEntry, PoreSettings, Skeleton, Supply,
-};
-pub use plugins::{Darcy, Drained};
+pub(crate) use columns::PhaseMask;
+pub use columns::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, FRICTION_PRESSURE, PACKING};
+pub use plugins::{Darcy, Drained, PoreModel, PorePressureEntry, PoreSettings, Supply};

@@ -3,7 +3,7 @@
 //! [`DarcyForchheimer`] is a plugin of the kind `seepage`, with the [`PoreResistance`] of grains of a size.
 
 use sph_contribution::{Contribution, contribution_kind};
-use sph_core::{Field, Scalar, Vector, Work};
+use sph_core::Work;
 
 mod darcy_forchheimer;
 mod exchange;
@@ -14,19 +14,14 @@ pub use darcy_forchheimer::DarcyForchheimer;
 pub(crate) use exchange::{Exchange, Gains, Phase};
 pub use pore_resistance::PoreResistance;
 
-/// Flux of the water through the pores, relative to the grains: volume per area and time. 0 outside of soils.
-pub const SEEPAGE_VELOCITY: Field<Vector> = Field::new(
-    "seepage_velocity",
-    "m/s",
-    "flux of the water through the pores, relative to the grains",
-);
-
-/// Pressure of the water that seeps, in the pores and beside the soil; 0 elsewhere.
-pub const SEEPAGE_PRESSURE: Field<Scalar> = Field::new(
-    "seepage_pressure",
-    "Pa",
-    "pressure of the water that seeps through a soil",
-);
+sph_core::fields! {
+    /// Flux of the water through the pores, relative to the grains: volume per area and time. 0 outside of soils.
+    pub SEEPAGE_VELOCITY: Vector = "seepage_velocity", "m/s",
+        "flux of the water through the pores, relative to the grains";
+    /// Pressure of the water that seeps, in the pores and beside the soil; 0 elsewhere.
+    pub SEEPAGE_PRESSURE: Scalar = "seepage_pressure", "Pa",
+        "pressure of the water that seeps through a soil";
+}
 
 contribution_kind!(
     /// A law of seepage that a scene may name.

@@ -1,15 +1,15 @@
 //! Stresses of particles by constitutive laws.
 //!
 //! * [`VelocityGradient`] is a kind of plugin: ∂u_i/∂x_j from a particle's neighbours and walls.
-//!   [`GradientStage`] applies it, [`StrainRate`] takes the magnitude; [`StrainRateTerm`] does both within the sweep.
-//! * [`ViscosityStage`] hands batches of particles to their phase's law.
-//! * [`ElasticMotion`] carries remembered stresses along, [`CarriedStress`] (or [`ImplicitElasticStress`]) gives their
-//!   acting part, and [`Yielded`] how the forces share where a material yields.
+//!   [`GradientStage`] applies it, `strain_rate` takes the magnitude, also within the sweep.
+//! * `law_stages` hands batches of particles to their phase's law: viscosities, the acting part of remembered stresses, and
+//!   how the forces share where a material yields.
+//! * [`ElasticMotion`] carries remembered stresses along.
 //! * [`ElasticForce`] is a kind of plugin: [`Divergence`] takes [`StressDivergence`] or [`AdjointDivergence`] of the stress,
 //!   [`Displacement`] second differences of the way since the material was last liquid. [`Blended`] weighs forces,
 //!   and [`ElasticSubSteps`] gives a force steps of its own.
 //! * [`Laplace`] is an effective pressure ([`EffectivePressureEntry`]): that between the grains, where it is not that
-//!   of the equation of state. [`PorePressure`] is what is left for the water.
+//!   of the equation of state.
 //! * [`CoulombFriction`] brakes soils on walls that have a coefficient of friction.
 //! * `contribution` brings all that into a scene.
 //!
@@ -33,7 +33,7 @@ mod law_stages;
 pub(crate) mod soil_surface;
 mod strain_rate;
 
-pub use adjoint::{AdjointDivergence, StressCorrection};
+pub use adjoint::AdjointDivergence;
 pub use blended::Blended;
 pub use contribution::ElasticWaveLimit;
 pub use coulomb::CoulombFriction;
@@ -46,10 +46,9 @@ pub use gradient::{
     Isotropic, NeighbourSums, Renormalised, SymmetricDifference, VelocityGradient,
     VelocityGradientEntry,
 };
-pub use laplace::{EffectivePressureEntry, Laplace, PorePressure, PressureSolver, Soils};
+pub use laplace::{EffectivePressureEntry, Laplace, PressureSolver, Soils};
 pub use law_inputs::{Blend, LawInputs};
-pub use law_stages::{CarriedStress, ImplicitElasticStress, ViscosityStage, Yielded};
-pub use strain_rate::{GradientStage, StrainRate, StrainRateTerm};
+pub use strain_rate::GradientStage;
 
 /// The laws of a scene, in the order of the phase numbers.
 pub type Rheologies = std::sync::Arc<[Box<dyn sph_rheology::Rheology>]>;

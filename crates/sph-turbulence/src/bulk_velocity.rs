@@ -38,18 +38,13 @@ pub struct BulkVelocity {
 impl<const D: usize> Contribution<D> for BulkVelocity {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let axis = self.axis as usize;
-        match axis < D && setting.world.domain.periodic[axis] {
-            true => {
-                offer.hook(*self);
-                Ok(())
-            }
-            false => Err(Refusal::at_key(
-                "flow-control",
-                "axis",
-                "the flow rate is held along an axis in which the scene is periodic: name another, or give \
-                 `[numerics.periodic]` this one",
-            )),
+        if axis < D && setting.world.domain.periodic[axis] {
+            offer.hook(*self);
+            return Ok(());
         }
+        let why = "the flow rate is held along an axis in which the scene is periodic: name another, or give \
+                   `[numerics.periodic]` this one";
+        Err(Refusal::at_key("flow-control", "axis", why))
     }
 }
 
@@ -69,8 +64,7 @@ impl<const D: usize> StepHook<D> for BulkVelocity {
         let world = &mut *moment.world;
         let axis = self.axis as usize;
         let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
-        let each = |i: usize| [mass[i], mass[i] * velocity[i][axis]];
-        let [total, momentum] = world.sums(each)?;
+        let [total, momentum] = world.sums(|i: usize| [mass[i], mass[i] * velocity[i][axis]])?;
         let mut velocity = world.free.take(fields::VELOCITY)?;
         let push = self.velocity - momentum / total;
         velocity.iter_mut().for_each(|u| u[axis] += push);

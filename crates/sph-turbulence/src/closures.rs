@@ -1,16 +1,16 @@
 //! Closures without a history.
 
-pub(crate) mod common;
-mod filter;
-mod last_strain;
-pub(crate) mod length;
+mod common;
 mod mixing_length;
-pub(crate) mod phases;
+mod phases;
 mod smagorinsky;
 mod wale;
 mod wall_units;
 
-pub use filter::FilterLength;
+pub(crate) use common::{ClosureCommon, rubs};
+pub(crate) use mixing_length::Length;
 pub use mixing_length::MixingLength;
-pub use smagorinsky::{Damping, Smagorinsky, StrainOf};
+pub(crate) use phases::{KIND, Kinematic, acts_on, viscosities};
+pub use smagorinsky::{Damping, FilterLength, Smagorinsky, StrainOf};
 pub use wale::Wale;
+pub(crate) use wale::in_space;

@@ -36,5 +36,4 @@ sph_core::fields! {
         "stress of eddies that is not along the strain (xx, yy, zz, xy, yz, xz)";
 }
 
-/// Both columns of a bed.
 pub(crate) const BED: (Field<Scalar>, Field<Scalar>) = (BED_FRICTION_VELOCITY, BED_DISTANCE);

@@ -40,17 +40,14 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
             return Err(StepError::stage("probe `turbulent-energy`", why));
         }
         let (mass, energy) = world.free.all((fields::MASS, TURBULENT_ENERGY))?;
-        let dissipation = match world.free.has(DISSIPATION.name) {
-            true => world.free.get(DISSIPATION)?,
-            false => &[],
-        };
+        let dissipation = world.free.get(DISSIPATION).ok();
         let [mut all, mut total, mut largest, mut lost] = [0.0; 4];
         for (i, (m, k)) in mass.iter().zip(energy).enumerate() {
             if *k > 0.0 {
                 all += m;
                 total += m * k;
                 largest = k.max(largest);
-                lost += m * dissipation.get(i).copied().unwrap_or(f64::NAN);
+                lost += m * dissipation.map_or(f64::NAN, |e| e[i]);
             }
         }
         Ok(match all > 0.0 {

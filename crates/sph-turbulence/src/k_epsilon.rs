@@ -2,19 +2,15 @@
 
 mod diffusion;
 mod earsm;
-mod extra_stress;
 mod k_length;
 mod model;
-mod near;
 mod plugin;
 mod realisable;
-mod start;
 mod work;
 
 pub use earsm::{AlgebraicStress, Anisotropy};
 pub use k_length::KLength;
 pub use model::{KEpsilonModel, Variant};
-pub use plugin::KEpsilon;
+pub use plugin::{ChannelStart, KEpsilon};
 pub use realisable::RealisableModel;
-pub use start::ChannelStart;
 pub use work::AtWall;

@@ -20,9 +20,7 @@ mod closures;
 mod columns;
 mod distance;
 mod energy_probe;
-mod in_space;
 mod k_epsilon;
-mod kind;
 mod wall;
 
 pub use bed::RoughBed;
@@ -33,12 +31,9 @@ pub use columns::{
     FRICTION_VELOCITY, LAST_STRAIN, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
     WALL_DISTANCE, WALL_UNITS,
 };
-pub use distance::ElementTree;
 pub use energy_probe::TurbulentEnergyProbe;
 pub use k_epsilon::{
     AlgebraicStress, Anisotropy, AtWall, ChannelStart, KEpsilon, KEpsilonModel, KLength,
     RealisableModel, Variant,
 };
-pub use wall::{
-    FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw, WallLawError,
-};
+pub use wall::{FrictionVelocityProbe, LogLaw, LogLawFlow, WallFunctionEntry, WallLaw};

@@ -6,8 +6,7 @@ use sph_boundary::{Course, Drawing, MoverSetting, RigidState, SinePart};
 use sph_core::Vect;
 use sph_neighbours::DepthGauge;
 
-use crate::waves::Paddle;
-use crate::waves::superposition::Component;
+use crate::waves::{Component, Paddle};
 
 /// Unit axis about which a flap turns forward, up × along; along z in the plane.
 pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {
@@ -17,16 +16,12 @@ pub(crate) fn forward<const D: usize>(along: &Vect<D>) -> [f64; 3] {
     }
 }
 
-/// The face of a paddle as it is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Face<const D: usize> {
-    along: Vect<D>,
-    /// A point of it, the lowest one that moves, m.
-    place: Vect<D>,
+    /// The gauge where it is drawn, at its lowest point that moves.
+    drawn: DepthGauge<D>,
     /// Height of the still level over the hinge, m; none for a piston.
     arm: Option<f64>,
-    reach: f64,
-    sideways: [f64; 2],
 }
 
 impl<const D: usize> Face<D> {
@@ -40,10 +35,8 @@ impl<const D: usize> Face<D> {
     ) -> Option<Self> {
         let points = setting.pieces().flat_map(Drawing::points);
         let points: Vec<Vect<D>> = points.map(Vect::from).collect();
-        let most = |of: &dyn Fn(&Vect<D>) -> f64| {
-            let largest = points.iter().map(of).reduce(f64::max);
-            largest.unwrap_or(0.0)
-        };
+        let most =
+            |of: &dyn Fn(&Vect<D>) -> f64| points.iter().map(of).reduce(f64::max).unwrap_or(0.0);
         let front = most(&|p| p.dot(&along));
         let side = |p: &Vect<D>| match D {
             3 => p[1] * along[0] - p[0] * along[1],
@@ -54,40 +47,36 @@ impl<const D: usize> Face<D> {
             return None;
         }
         let origin = hinge.unwrap_or_else(Vect::zeros);
-        Some(Face {
-            along,
+        let drawn = DepthGauge {
             place: origin + along * (front - origin.dot(&along)),
-            arm: hinge.map(|h| level - h[D - 1]),
+            along,
+            lean: 0.0,
             reach,
             sideways,
-        })
+        };
+        let arm = hinge.map(|h| level - h[D - 1]);
+        Some(Face { drawn, arm })
     }
 
     /// The depth gauge of the face.
     pub fn gauge(&self, now: &RigidState<D>) -> DepthGauge<D> {
-        let [way, _] = self.movement(now);
-        let (place, lean) = match self.arm {
-            None => (self.place + self.along * way, 0.0),
-            Some(arm) => (self.place, (way / arm).tan()),
-        };
-        DepthGauge {
-            place,
-            along: self.along,
-            lean,
-            reach: self.reach,
-            sideways: self.sideways,
+        let ([way, _], mut gauge) = (self.movement(now), self.drawn);
+        match self.arm {
+            None => gauge.place += gauge.along * way,
+            Some(arm) => gauge.lean = (way / arm).tan(),
         }
+        gauge
     }
 
     /// Way and velocity at the still level, m and m/s; of a flap the arc.
     fn movement(&self, state: &RigidState<D>) -> [f64; 2] {
         let Some(arm) = self.arm else {
-            let way = Vect::from(state.pose.translation).dot(&self.along);
-            return [way, state.velocity.dot(&self.along)];
+            let way = Vect::from(state.pose.translation).dot(&self.drawn.along);
+            return [way, state.velocity.dot(&self.drawn.along)];
         };
         let up = state.pose.rotation.map(|row| row[D - 1]);
-        let angle = Vect::from(up).dot(&self.along).atan2(up[D - 1]);
-        let axis = forward(&self.along);
+        let angle = Vect::from(up).dot(&self.drawn.along).atan2(up[D - 1]);
+        let axis = forward(&self.drawn.along);
         let rate: f64 = (0..3).map(|k| axis[k] * state.angular_velocity[k]).sum();
         [arm * angle, arm * rate]
     }
@@ -107,13 +96,13 @@ impl<const D: usize> Face<D> {
     ) -> RigidState<D> {
         let Some(arm) = self.arm else {
             let mut state = plan;
-            let along = self.along * way;
+            let along = self.drawn.along * way;
             (0..D).for_each(|k| state.pose.translation[k] += along[k]);
-            state.velocity += self.along * velocity;
-            state.acceleration += self.along * acceleration;
+            state.velocity += self.drawn.along * velocity;
+            state.acceleration += self.drawn.along * acceleration;
             return state;
         };
-        let axis = forward(&self.along);
+        let axis = forward(&self.drawn.along);
         let mut state = plan.turned_by(axis.map(|e| e * way / arm));
         for (k, e) in axis.iter().enumerate() {
             state.angular_velocity[k] += e * velocity / arm;
@@ -228,13 +217,14 @@ mod tests {
     #[test]
     fn an_added_motion_is_read_back() {
         for arm in [None, Some(0.5)] {
-            let face = Face::<3> {
+            let drawn = DepthGauge {
+                place: Vect::<3>::zeros(),
                 along: Vect::<3>::new(0.6, -0.8, 0.0),
-                place: Vect::zeros(),
-                arm,
+                lean: 0.0,
                 reach: 0.1,
                 sideways: [0.0, 1.0],
             };
+            let face = Face { drawn, arm };
             let plan = face.moved(RigidState::default(), [0.02, 0.1], 0.0);
             let now = face.moved(plan, [0.01, -0.3], 2.0);
             let [way, velocity] = face.free_motion(&now, &plan);
@@ -242,7 +232,7 @@ mod tests {
             let top = now
                 .movement((Vect::<3>::new(0.0, 0.0, 0.5)).into())
                 .velocity;
-            assert!((top.dot(&face.along) + 0.2).abs() < 2e-2, "{top}");
+            assert!((top.dot(&face.drawn.along) + 0.2).abs() < 2e-2, "{top}");
         }
     }
 

@@ -73,7 +73,6 @@ pub struct WaveMaker<const D: usize> {
     feedback: Option<Feedback<D>>,
 }
 
-/// The gauge of a paddle, and its feedback.
 #[derive(Clone, Debug)]
 struct Feedback<const D: usize> {
     face: Face<D>,
@@ -98,7 +97,6 @@ impl<const D: usize> WaveMaker<D> {
         Ok([depth, g])
     }
 
-    /// The direction of the waves.
     fn direction(&self) -> MoverResult<Vect<D>> {
         let Some(along) = &self.along else {
             return Ok(Vect::from_fn(|k, _| if k == 0 { 1.0 } else { 0.0 }));
@@ -131,7 +129,6 @@ impl<const D: usize> WaveMaker<D> {
         }
     }
 
-    /// True if the motion has the correction of second order.
     fn second_order(&self, paddle: Paddle, depth: f64, waves: &[Component]) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         let unfit = "second order is for regular waves of a piston: take 1";
@@ -168,7 +165,6 @@ impl<const D: usize> WaveMaker<D> {
         Ok(parts)
     }
 
-    /// The additional motion of a paddle that absorbs.
     fn feedback(
         &self,
         paddle: Paddle,

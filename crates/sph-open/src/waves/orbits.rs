@@ -28,7 +28,6 @@ pub(crate) struct Orbits {
     pub second: bool,
 }
 
-/// The water at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Water {
     /// Horizontal velocity, the current with it, m/s.
@@ -128,7 +127,6 @@ impl Orbits {
 mod tests {
     use super::*;
 
-    /// One wave.
     fn wave(
         [depth, current]: [f64; 2],
         [amplitude, frequency, wavenumber, phase]: [f64; 4],
@@ -161,8 +159,7 @@ mod tests {
         for j in 0..40 {
             let kx = 0.157 * f64::from(j);
             let here = eta(kx, 0.2);
-            let all = orbits(amplitude, kx);
-            let water = all.extrapolated(here, 0.2, 1.0);
+            let water = orbits(amplitude, kx).extrapolated(here, 0.2, 1.0);
             let step = 1e-5;
             let rises = (eta(kx, 0.2 + step) - eta(kx, 0.2 - step)) / (2.0 * step);
             let slope = k * (eta(kx + step, 0.2) - eta(kx - step, 0.2)) / (2.0 * step);

@@ -7,8 +7,7 @@ use sph_core::{StepError, plugin};
 use sph_neighbours::World;
 use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
-use crate::waves::dispersion::wavenumber_on;
-use crate::waves::separation::{Separated, separated};
+use crate::waves::{Amplitude, Separated, separated, wavenumber_on};
 
 /// Waves that run along the first axis and those that come back, from gauges at three places or more.
 ///
@@ -115,7 +114,6 @@ impl ReflectionProbe {
         Ok(())
     }
 
-    /// Takes a row of levels in.
     fn take(&self, time: f64, levels: Vec<f64>) -> Result<(), StepError> {
         let mut sums = self.sums.lock().map_err(|_| refused("a thread failed"))?;
         let numbers: Vec<usize> = self.numbers().collect();
@@ -168,11 +166,11 @@ impl ReflectionProbe {
             let frequency = n as f64 / window;
             let on = |u: f64| wavenumber_on(TAU * frequency, self.depth, gravity, u);
             let k = [on(self.current)?, on(-self.current)?];
-            let gauges: Vec<(f64, [f64; 2])> = (self.at.iter().enumerate())
+            let gauges: Vec<(f64, Amplitude)> = (self.at.iter().enumerate())
                 .map(|(gauge, x)| {
                     let place = 2 * (gauge * count + j);
                     let part = |c: usize| 2.0 / window * sums.integrals[place + c];
-                    (*x, [part(0), part(1)])
+                    (*x, Amplitude::new(part(0), part(1)))
                 })
                 .collect();
             let waves = separated(k, &gauges)?;
@@ -182,22 +180,17 @@ impl ReflectionProbe {
     }
 }
 
-fn size(a: [f64; 2]) -> f64 {
-    a[0].hypot(a[1])
-}
-
 /// Significant heights of both directions, √ of their energies' ratio, period of the largest wave.
 fn summed(found: &[(f64, Separated)]) -> Vec<f64> {
     if found.is_empty() {
         return vec![f64::NAN; 4];
     }
-    let energy = |of: fn(&Separated) -> [f64; 2]| -> f64 {
-        found.iter().map(|(_, w)| 0.5 * size(of(w)).powi(2)).sum()
+    let energy = |of: fn(&Separated) -> Amplitude| -> f64 {
+        found.iter().map(|(_, w)| 0.5 * of(w).norm().powi(2)).sum()
     };
     let (incident, reflected) = (energy(|w| w.incident), energy(|w| w.reflected));
-    let incident_of = |(_, w): &(f64, Separated)| size(w.incident);
-    let largest = found.iter();
-    let largest = largest.max_by(|a, b| incident_of(a).total_cmp(&incident_of(b)));
+    let incident_of = |(_, w): &(f64, Separated)| w.incident.norm();
+    let largest = (found.iter()).max_by(|a, b| incident_of(a).total_cmp(&incident_of(b)));
     let peak = largest.map_or(f64::NAN, |(f, _)| 1.0 / f);
     vec![
         4.0 * incident.sqrt(),
@@ -238,7 +231,7 @@ impl<const D: usize> Curves<D> for ReflectionProbe {
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
         let found = self.found(world.gravity.norm())?;
-        let row = |(f, w): &(f64, Separated)| vec![*f, size(w.incident), size(w.reflected)];
+        let row = |(f, w): &(f64, Separated)| vec![*f, w.incident.norm(), w.reflected.norm()];
         Ok(found.iter().map(row).collect())
     }
 }
@@ -288,17 +281,9 @@ mod tests {
     }
 
     fn probe(lowest: f64, highest: f64, [from, to]: [f64; 2]) -> ReflectionProbe {
-        ReflectionProbe {
-            at: vec![3.0, 3.3, 3.75],
-            across: 0.0,
-            depth: 0.5,
-            from,
-            to,
-            lowest,
-            highest,
-            current: 0.0,
-            sums: Mutex::default(),
-        }
+        let band = format!("lowest = {lowest}\nhighest = {highest}\nfrom = {from}\nto = {to}");
+        let places = "at = [3.0, 3.3, 3.75]\ndepth = 0.5";
+        toml::from_str(&format!("{places}\n{band}")).expect("a probe")
     }
 
     /// Feeds it the levels of waves (frequency, amplitude there, amplitude back, phase), every 20 ms, in steps that do
@@ -321,14 +306,8 @@ mod tests {
     }
 
     #[test]
-    fn regular_waves_and_what_comes_back() {
-        regular_on(0.0);
-    }
-
-    #[test]
-    fn regular_waves_on_a_current() {
-        regular_on(0.3);
-        regular_on(-0.2);
+    fn regular_waves_and_what_comes_back_at_rest_and_on_a_current() {
+        [0.0, 0.3, -0.2].into_iter().for_each(regular_on);
     }
 
     fn regular_on(current: f64) {
@@ -362,7 +341,7 @@ mod tests {
         for (f, w) in &found {
             let own = waves.iter().find(|v| (v[0] - f).abs() < 1e-9);
             let [there, back] = own.map_or([0.0; 2], |v| [v[1], v[2]]);
-            let off = [size(w.incident) - there, size(w.reflected) - back];
+            let off = [w.incident.norm() - there, w.reflected.norm() - back];
             assert!(off.iter().all(|x| x.abs() < 4e-5), "{f} Hz: {w:?}");
         }
     }

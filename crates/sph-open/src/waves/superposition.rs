@@ -33,9 +33,6 @@ impl Component {
 
 /// True if waves are of second order: if the `order` is 2, or none is named and it `fits` them; `unfit` is the refusal where it
 /// does not. Regular waves are to be so low and short that second order describes them, H L²/d³ < 8π²/3 (Madsen 1971).
-///
-/// # Errors
-/// The key `order`.
 pub(crate) fn second_order(
     waves: &[Component],
     depth: f64,
@@ -133,7 +130,6 @@ pub struct Focused {
     pub time: f64,
 }
 
-/// Number of waves of a focused group.
 const GROUP: f64 = 64.0;
 
 impl Waves {
@@ -247,6 +243,10 @@ impl Waves {
 mod tests {
     use super::*;
 
+    fn waves(table: &str) -> Waves {
+        toml::from_str(table).expect("waves")
+    }
+
     fn level(waves: &[Component], x: f64, t: f64) -> f64 {
         let one =
             |w: &Component| w.amplitude * (w.frequency * t - w.wavenumber * x + w.phase).cos();
@@ -255,14 +255,7 @@ mod tests {
 
     #[test]
     fn a_focused_group_meets_where_and_when_it_is_asked_to() {
-        let waves = Waves::Focused(Focused {
-            crest: 0.08,
-            period: 1.2,
-            enhancement: 3.3,
-            band: [0.5, 2.0],
-            at: 3.0,
-            time: 9.0,
-        });
+        let waves = waves("focused = { crest = 0.08, period = 1.2, at = 3.0, time = 9.0 }");
         assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
         let all = waves.components(0.5, 9.81, 0.0);
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
@@ -273,16 +266,9 @@ mod tests {
 
     #[test]
     fn a_sea_repeats_itself_and_is_the_same_for_a_seed() {
-        let sea = |seed| {
-            Waves::Irregular(Irregular {
-                height: 0.06,
-                period: 1.2,
-                enhancement: 3.3,
-                repeat: 24.0,
-                band: [0.5, 2.0],
-                seed,
-            })
-            .components(0.5, 9.81, 0.0)
+        let sea = |seed: u64| {
+            let sea = format!("height = 0.06, period = 1.2, repeat = 24.0, seed = {seed}");
+            waves(&format!("irregular = {{ {sea} }}")).components(0.5, 9.81, 0.0)
         };
         let all = sea(7);
         assert_eq!(all, sea(7));
@@ -296,10 +282,7 @@ mod tests {
 
     #[test]
     fn waves_that_break_are_refused() {
-        let waves = Waves::Regular(Regular {
-            height: 0.4,
-            period: 1.2,
-        });
+        let waves = waves("regular = { height = 0.4, period = 1.2 }");
         let MoverRefusal { key, why } = waves.check(0.5, 9.81, 0.0).expect_err("refused");
         assert!(key == "waves.regular" && why.contains("breaks"), "{why}");
     }

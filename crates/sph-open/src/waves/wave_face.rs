@@ -68,7 +68,6 @@ pub struct WaveFace {
     settled: OnceLock<WaveFaceState>,
 }
 
-/// Quantities derived from the table.
 #[derive(Clone, Debug)]
 struct WaveFaceState {
     orbits: Orbits,
@@ -89,7 +88,6 @@ impl WaveFaceState {
 }
 
 impl WaveFace {
-    /// True if the waves are of second order.
     fn second_order(&self, orbits: &Orbits) -> Result<bool, OpenRefusal> {
         let fits = matches!(self.waves, Some(Waves::Regular(_)));
         let unfit = "second order is for regular waves: take 1";

@@ -7,12 +7,12 @@ use sph_contribution::{
 };
 use sph_core::{fields, suggestion};
 
-use super::contract::{
-    EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PorePressureEntry,
-    PoreSettings, SoilPhase, Supply,
+use super::columns::{
+    EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PhaseMask,
 };
 use super::drainage::{Drainage, Scratch};
-use super::effective::{DilatantFriction, GrainPressure, PlasticShare};
+use super::effective::{dilatant_friction, grain_pressure};
+use super::plugins::{PorePressureEntry, PoreSettings, Supply};
 use super::pore_flow::PoreFlow;
 use super::surface::SurfaceDistance;
 use super::swelling::Swelling;
@@ -22,14 +22,11 @@ use crate::stress::{LawInputs, contribution::Materials};
 
 const KIND: &str = "pore-pressure";
 
-/// The pores of one soil, with its law of dilatancy.
 struct Pores<const D: usize> {
     settings: PoreSettings,
     law: Option<Arc<dyn Dilatancy>>,
     law_inputs: LawInputs,
-    /// True if the scene has an effective pressure.
     effective: bool,
-    /// True if it has a seepage of its own.
     seeps: bool,
 }
 
@@ -57,7 +54,7 @@ impl<const D: usize> Contribution<D> for Pores<D> {
     fn columns(&self) -> Vec<OwnColumn<D>> {
         let settings = self.settings.clone();
         let (soil, bodies) = (settings.soil, settings.bodies);
-        let borne = settings.skeleton.filter(|s| !s.consolidated);
+        let borne = settings.darcy.filter(|s| !s.consolidated);
         let load = borne.map_or(0.0, |s| s.load);
         let name = soil.clone();
         let packing = move |birth: &Birth<'_, D>| match birth.phase == name {
@@ -79,22 +76,22 @@ impl<const D: usize> Contribution<D> for Pores<D> {
         let settings = &self.settings;
         let soil = self.soil(setting)?;
         let only = setting.phases.len() == 1;
-        let phase = SoilPhase((!only).then_some(soil as u32));
+        let phase = PhaseMask((!only).then_some(soil as u32));
         let reference = setting.laws[soil].reference();
-        let load = settings.skeleton.as_ref().map_or(0.0, |s| s.load);
-        offer.stage(GrainPressure { soil: phase, load });
-        if let Some(friction) = self.friction(soil, phase)? {
-            offer.stage(friction);
+        let load = settings.darcy.as_ref().map_or(0.0, |s| s.load);
+        offer.stage(grain_pressure(phase, load));
+        if let Some(law) = self.law.clone().filter(|law| law.adds_friction()) {
+            offer.stage(dilatant_friction(phase, law, self.friction(soil)?));
         }
         let kernel = &setting.world.kernel;
         let elastic = self.law_inputs.laws[soil].elastic().is_some();
-        let skeleton = settings.skeleton.clone();
+        let darcy = settings.darcy.clone();
         let supply = self.supply(setting)?;
         offer.hook(PoreFlow {
             soil: phase,
             law: self.law.clone(),
-            plastic: elastic.then(|| PlasticShare(self.law_inputs.clone())),
-            drainage: skeleton.map(|s| Drainage::new(s, supply, &reference)),
+            plastic: elastic.then(|| self.law_inputs.clone()),
+            drainage: darcy.map(|s| Drainage::new(s, supply, &reference)),
             swelling: self.swelling(setting, soil)?,
             density: setting.density.value,
             distance: SurfaceDistance::new::<D>(kernel.support_radius(), &|r| kernel.at(r).0),
@@ -102,8 +99,7 @@ impl<const D: usize> Contribution<D> for Pores<D> {
         });
         let why = "the pressure in the pores could not be solved for: raise `pore-pressure.darcy.iterations`, or \
                    loosen its `tolerance`";
-        let remedy = ("pore pressure", why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push(("pore pressure", why.into()));
         Ok(())
     }
 }
@@ -120,8 +116,8 @@ impl<const D: usize> Pores<D> {
             let why = "the pores seep by this table already: take [seepage] out";
             return Err(Refusal::at_key(KIND, "", why));
         }
-        if let Some(skeleton) = &settings.skeleton
-            && skeleton.permeability.at(1.0 - settings.porosity) <= 0.0
+        if let Some(darcy) = &settings.darcy
+            && darcy.permeability(1.0 - settings.porosity) <= 0.0
         {
             let why = "the permeability follows from the diameter of the grains: give `grain_diameter` or \
                        `permeability`, or take [pore-pressure.drained]";
@@ -146,8 +142,7 @@ impl<const D: usize> Pores<D> {
         };
         let bodies = settings.bodies.iter();
         let bodies = bodies.map(|(name, n)| (format!("bodies.{name}"), *n));
-        let all = std::iter::once(("porosity".to_string(), settings.porosity));
-        let mut all = all.chain(bodies);
+        let mut all = std::iter::once(("porosity".to_string(), settings.porosity)).chain(bodies);
         let dense = |n: f64| 1.0 - n >= law.densest();
         match all.find(|(_, n)| dense(*n)) {
             None => Ok(soil),
@@ -162,27 +157,16 @@ impl<const D: usize> Pores<D> {
         }
     }
 
-    /// The friction that dilation adds to that of the rheology.
-    fn friction(&self, soil: usize, phase: SoilPhase) -> Result<Option<DilatantFriction>, Refusal> {
-        let Some(law) = self.law.as_ref().filter(|law| law.adds_friction()) else {
-            return Ok(None);
-        };
-        let Some(friction) = self.law_inputs.laws[soil].slow_friction() else {
-            let why = "it adds to the friction of the rheology, and that of the soil has no coefficient: take a \
-                       rheology of grains, or [dilatancy.plastic-pressure]";
-            return Err(Refusal::at_key("dilatancy", "", why));
-        };
-        Ok(Some(DilatantFriction {
-            soil: phase,
-            law: law.clone(),
-            friction,
-        }))
+    /// The coefficient of friction of the rheology of the soil, to which dilation adds.
+    fn friction(&self, soil: usize) -> Result<f64, Refusal> {
+        let why = "it adds to the friction of the rheology, and that of the soil has no coefficient: take a \
+                   rheology of grains, or [dilatancy.plastic-pressure]";
+        let friction = self.law_inputs.laws[soil].slow_friction();
+        friction.ok_or_else(|| Refusal::at_key("dilatancy", "", why))
     }
 
-    /// The wall that feeds the pores.
     fn supply(&self, setting: &Setting<'_, D>) -> Result<Option<(u32, Supply)>, Refusal> {
-        let skeleton = self.settings.skeleton.as_ref();
-        let Some(supply) = skeleton.and_then(|s| s.supply.clone()) else {
+        let Some(supply) = self.settings.darcy.as_ref().and_then(|d| d.supply.clone()) else {
             return Ok(None);
         };
         let walls = &setting.world.walls;

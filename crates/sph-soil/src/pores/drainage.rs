@@ -8,9 +8,8 @@ use sph_multiphase::linear::{
 use sph_neighbours::{Cluster, Lane, LanePair, PairNumbers, Particles, World};
 use sph_rheology::state::Reference;
 
-use super::contract::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, Skeleton, Supply};
+use crate::pores::{DRAINED_PRESSURE, Darcy, EXCESS_PORE_PRESSURE, Supply};
 
-/// Buffers of a solve, kept for their memory.
 #[derive(Default)]
 pub(crate) struct Scratch {
     assembly: Assembly<f64, 1>,
@@ -27,9 +26,8 @@ pub(crate) struct Scratch {
     pub growth: Vec<f64>,
 }
 
-/// The skeleton that drains, and the solver of its excess pressure.
 pub(crate) struct Drainage {
-    pub skeleton: Skeleton,
+    pub darcy: Darcy,
     /// A wall that feeds the pores, with its number.
     pub supply: Option<(u32, Supply)>,
     /// Stiffness of the contacts, Pa.
@@ -42,17 +40,17 @@ const STIFF: f64 = 10.0;
 
 impl Drainage {
     /// Of a soil with a reference state.
-    pub fn new(skeleton: Skeleton, supply: Option<(u32, Supply)>, soil: &Reference) -> Self {
+    pub fn new(darcy: Darcy, supply: Option<(u32, Supply)>, soil: &Reference) -> Self {
         let stiff = STIFF * soil.density * soil.sound_speed.powi(2);
         Drainage {
-            contacts: skeleton.modulus.unwrap_or(stiff),
+            contacts: darcy.modulus.unwrap_or(stiff),
             solver: ConjugateGradient {
                 preconditioner: Preconditioner::IncompleteDiagonal,
-                tolerance: skeleton.tolerance,
-                iterations: skeleton.iterations,
+                tolerance: darcy.tolerance,
+                iterations: darcy.iterations,
                 ..ConjugateGradient::default()
             },
-            skeleton,
+            darcy,
             supply,
         }
     }
@@ -86,7 +84,7 @@ impl Drainage {
         let solved = solver.solve(&operator, &assembly.sources, excess);
         let drained = world.free.get(DRAINED_PRESSURE)?;
         for (i, p) in excess.iter_mut().enumerate() {
-            p[0] = p[0].min(drained[i] + self.skeleton.load);
+            p[0] = p[0].min(drained[i] + self.darcy.load);
         }
         scratch.product.clear();
         scratch.product.resize(excess.len(), Vect::zeros());
@@ -94,10 +92,7 @@ impl Drainage {
         if let Entries::Scalar(values) = matrix.entries {
             assembly.values = values;
         }
-        solved.map_err(|e| StepError::Stage {
-            stage: "pore pressure".into(),
-            reason: e.to_string(),
-        })?;
+        solved.map_err(|e| StepError::stage("pore pressure", e))?;
         let column = world.free.get_mut(EXCESS_PORE_PRESSURE)?;
         let both = column.iter_mut().zip(excess);
         both.for_each(|(column, p)| *column = p[0]);

@@ -1,10 +1,64 @@
-//! Models of pores as plugins.
+//! The kind of models of the pores of a soil, and its plugins.
 
 use std::collections::BTreeMap;
 
-use sph_core::plugin;
+use sph_core::{Work, contract, parameters, plugin};
 
-use super::contract::{Permeability, PoreModel, PorePressureEntry, PoreSettings, Skeleton, Supply};
+use crate::seepage::PoreResistance;
+
+/// A porous wall behind which the fluid has an excess pressure.
+#[parameters]
+pub struct Supply {
+    /// Name of the wall.
+    pub wall: String,
+    /// Excess pressure behind it.
+    #[parameter(unit: "Pa")]
+    pub excess: f64,
+    /// Time over which that rises from 0 along a line; it is there from the start if this is 0.
+    #[parameter(default, unit: "s", min: 0.0)]
+    pub rise: f64,
+}
+
+impl Supply {
+    /// Excess pressure at a time, Pa.
+    pub fn at(&self, time: f64) -> f64 {
+        match time < self.rise {
+            true => self.excess * time / self.rise,
+            false => self.excess,
+        }
+    }
+}
+
+/// Parameters of the pores of a soil.
+#[derive(Clone, Debug)]
+pub struct PoreSettings {
+    /// Name of the phase with the pores.
+    pub soil: String,
+    /// Name of the phase that drains into the flow and comes from it.
+    pub water: Option<String>,
+    /// Porosity at the start.
+    pub porosity: f64,
+    /// Porosities of bodies of their own.
+    pub bodies: BTreeMap<String, f64>,
+    /// Density of the fluid that goes in and out, kg/m³; that of the water if `None`.
+    pub fluid_density: Option<f64>,
+    /// True if volumes of particles follow the packing.
+    pub swelling: bool,
+    /// The fluid that drains, and the skeleton that it drains from; `None` if the fluid passes freely.
+    pub darcy: Option<Darcy>,
+}
+
+/// A model of the pores of a soil.
+pub trait PoreModel: Send {
+    /// Its parameters.
+    fn settings(&self) -> PoreSettings;
+}
+
+contract!(
+    /// A model of pores that a scene may name.
+    pub PorePressureEntry, "pore-pressure", One, "the packing of a soil and the pressure in its pores", PoreModel,
+    .absent("constant porosity, and pores at rest, if left out").ordered(122).works(Work::Others)
+);
 
 /// ∂ε/∂t = ∇·(k/η ∇p_e) = γ̇ tan ψ − (1/E) ∂p'/∂t, p' = p'_d − p_e, φ̇ = −φ ∂ε/∂t.
 ///
@@ -76,9 +130,17 @@ pub struct Darcy {
     pub iterations: usize,
 }
 
+impl Darcy {
+    /// k, m², at a packing.
+    pub(crate) fn permeability(&self, packing: f64) -> f64 {
+        let diameter = self.grain_diameter.unwrap_or(0.0);
+        self.permeability
+            .unwrap_or_else(|| PoreResistance::permeability(1.0 - packing, diameter))
+    }
+}
+
 impl PoreModel for Darcy {
     fn settings(&self) -> PoreSettings {
-        let by_grains = Permeability::Grains(self.grain_diameter.unwrap_or(0.0));
         PoreSettings {
             soil: self.soil.clone(),
             water: self.water.clone(),
@@ -86,16 +148,7 @@ impl PoreModel for Darcy {
             bodies: self.bodies.clone(),
             fluid_density: self.fluid_density,
             swelling: self.swelling,
-            skeleton: Some(Skeleton {
-                permeability: self.permeability.map_or(by_grains, Permeability::Given),
-                viscosity: self.viscosity,
-                modulus: self.modulus,
-                load: self.load,
-                consolidated: self.consolidated,
-                supply: self.supply.clone(),
-                tolerance: self.tolerance,
-                iterations: self.iterations,
-            }),
+            darcy: Some(self.clone()),
         }
     }
 }
@@ -137,7 +190,7 @@ impl PoreModel for Drained {
             bodies: self.bodies.clone(),
             fluid_density: Some(self.fluid_density),
             swelling: self.swelling,
-            skeleton: None,
+            darcy: None,
         }
     }
 }

@@ -6,22 +6,20 @@ use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
 use sph_neighbours::World;
 
-use super::contract::{
-    DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING,
-    SoilPhase,
-};
+use super::columns::{EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME};
 use super::drainage::{Drainage, Scratch};
-use super::effective::PlasticShare;
+use super::effective::plastic_shares;
 use super::surface::{Outlet, SurfaceDistance, feeds, outlets};
 use super::swelling::Swelling;
 use crate::dilatancy::{Dilatancy, Dilation, GrainState};
+use crate::pores::{DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, PACKING, PhaseMask};
+use crate::stress::LawInputs;
 
-/// Packing and excess pressure of the pores of a soil.
 pub(crate) struct PoreFlow {
-    pub soil: SoilPhase,
+    pub soil: PhaseMask,
     pub law: Option<Arc<dyn Dilatancy>>,
     /// Of a soil with an elastic part.
-    pub plastic: Option<PlasticShare>,
+    pub plastic: Option<LawInputs>,
     /// `None` if the fluid passes freely.
     pub drainage: Option<Drainage>,
     pub swelling: Option<Swelling>,
@@ -36,35 +34,24 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         "pore pressure".into()
     }
     fn access(&self) -> Access {
-        let mut access = self
-            .soil
-            .access()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
-            .both(PACKING)
+        let mut access = (self.soil.access(Access::none()))
+            .both((fields::POSITION, fields::VOLUME, PACKING))
             .both(EXCESS_PORE_PRESSURE)
-            .here(DRAINED_PRESSURE)
-            .here(EARLIER_DRAINED_PRESSURE)
-            .here(GRAIN_VOLUME)
+            .here((DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME))
             .here(fields::IDENTITY)
-            .writes(PACKING)
-            .writes(EXCESS_PORE_PRESSURE)
-            .writes(EARLIER_DRAINED_PRESSURE);
+            .writes((PACKING, EXCESS_PORE_PRESSURE, EARLIER_DRAINED_PRESSURE));
         if self.law.is_some() {
             access = access.here(fields::STRAIN_RATE);
             if let Some(plastic) = &self.plastic {
-                access = access.and(plastic.access());
+                access = access.and(plastic.access()).here(fields::ELASTIC_STRESS);
             }
         }
         match self.swelling.is_some() {
             false => access,
             true => access
-                .both(fields::MASS)
-                .both(fields::VELOCITY)
+                .both((fields::MASS, fields::VELOCITY))
                 .here(fields::DENSITY)
-                .writes(fields::MASS)
-                .writes(fields::VELOCITY)
-                .writes(self.density)
+                .writes((fields::MASS, fields::VELOCITY, self.density))
                 .rings(3),
         }
     }
@@ -72,38 +59,28 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         &[StepPhase::AfterKick]
     }
     fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let (world, dt) = (&mut *moment.world, moment.dt);
         let mut scratch = std::mem::take(&mut self.scratch);
-        let done = self.advance(moment.world, moment.dt, &mut scratch);
-        self.scratch = scratch;
-        done
+        let mut drainage = self.drainage.take();
+        let drained = match &mut drainage {
+            Some(drainage) => self.drain(world, drainage, dt, &mut scratch),
+            None => self.expand(world, dt, &mut scratch.growth),
+        };
+        (self.scratch, self.drainage) = (scratch, drainage);
+        let (outlets, outflow) = drained?;
+        let growth = &self.scratch.growth;
+        self.pack(world, growth)?;
+        match &self.swelling {
+            None => Ok(()),
+            Some(swelling) => swelling.grow(world, growth, &outlets, &outflow, dt),
+        }
     }
 }
 
-impl PoreFlow {
-    fn advance<const D: usize>(
-        &mut self,
-        world: &mut World<D>,
-        dt: f64,
-        scratch: &mut Scratch,
-    ) -> Result<(), StepError> {
-        let (outlets, outflow) = match self.drainage.take() {
-            Some(mut drainage) => {
-                let drained = self.drain(world, &mut drainage, dt, scratch);
-                self.drainage = Some(drainage);
-                drained?
-            }
-            None => {
-                self.expand(world, dt, scratch)?;
-                (Vec::new(), Vec::new())
-            }
-        };
-        self.pack(world, &scratch.growth)?;
-        match &self.swelling {
-            None => Ok(()),
-            Some(swelling) => swelling.grow(world, &scratch.growth, &outlets, &outflow, dt),
-        }
-    }
+/// The outlets of a soil, and the volumes that go out by them in a step, m^d.
+type Outflow = (Vec<Outlet>, Vec<f64>);
 
+impl PoreFlow {
     /// The expansion of a particle at a pressure; none without a law.
     fn dilation(&self, packing: f64, strain_rate: f64, pressure: f64) -> Dilation {
         let state = GrainState {
@@ -124,49 +101,47 @@ impl PoreFlow {
         let Some(plastic) = &self.plastic else {
             return Ok(rates.to_vec());
         };
-        let both = rates.iter().zip(plastic.shares(world)?);
+        let both = rates.iter().zip(plastic_shares(plastic, world)?);
         Ok(both.map(|(rate, share)| rate * share).collect())
     }
 
-    /// Growth of every particle by dilation at the drained pressure.
+    /// Growth of every particle by dilation at the drained pressure; no fluid goes out.
     fn expand<const D: usize>(
         &self,
         world: &World<D>,
         dt: f64,
-        scratch: &mut Scratch,
-    ) -> Result<(), StepError> {
-        let soil = self.soil.mask(world)?;
+        growth: &mut Vec<f64>,
+    ) -> Result<Outflow, StepError> {
+        let soil = self.soil.test(world)?;
         let strain_rate = self.strain_rates(world)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let packing = world.free.get(PACKING)?;
+        let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
         let drained = world.free.get(DRAINED_PRESSURE)?;
-        scratch.growth.clear();
-        scratch.growth.extend((0..volume.len()).map(|i| {
+        growth.clear();
+        growth.extend((0..volume.len()).map(|i| {
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);
-            match soil.has(i) {
+            match soil(i) {
                 true => self.dilation(packing[i], rate, drained[i]).rate * volume[i] * dt,
                 false => 0.0,
             }
         }));
-        Ok(())
+        Ok(Outflow::default())
     }
 
-    /// Solves for the excess pressure at the end of the step; returns the outlets and the volumes that go out by them, m^d.
+    /// Solves for the excess pressure at the end of the step.
     fn drain<const D: usize>(
         &self,
         world: &mut World<D>,
         drainage: &mut Drainage,
         dt: f64,
         scratch: &mut Scratch,
-    ) -> Result<(Vec<Outlet>, Vec<f64>), StepError> {
+    ) -> Result<Outflow, StepError> {
         let outlets = {
-            let soil = self.soil.mask(world)?;
+            let soil = self.soil.test(world)?;
             let water = self.swelling.as_ref().and_then(|s| s.fluid);
-            let phase = world.free.get(fields::PHASE).ok();
-            let both = water.zip(phase);
+            let both = water.zip(world.free.get(fields::PHASE).ok());
             let fluid = both.map(|(w, p)| move |i: usize| p[i] == w.water);
             let fluid = fluid.as_ref().map(|f| f as &dyn Fn(usize) -> bool);
-            outlets(world, &|i| soil.has(i), fluid, &self.distance)?
+            outlets(world, &soil, fluid, &self.distance)?
         };
         self.coefficients(world, drainage, &outlets, dt, scratch)?;
         drainage.solve(world, scratch)?;
@@ -198,14 +173,12 @@ impl PoreFlow {
         dt: f64,
         scratch: &mut Scratch,
     ) -> Result<(), StepError> {
-        let skeleton = &drainage.skeleton;
+        let darcy = &drainage.darcy;
         let mut earlier = world.free.take(EARLIER_DRAINED_PRESSURE)?;
-        let soil = self.soil.mask(world)?;
+        let soil = self.soil.test(world)?;
         let strain_rate = self.strain_rates(world)?;
-        let volume = world.free.get(fields::VOLUME)?;
-        let packing = world.free.get(PACKING)?;
-        let drained = world.free.get(DRAINED_PRESSURE)?;
-        let excess = world.free.get(EXCESS_PORE_PRESSURE)?;
+        let (volume, packing) = world.free.all((fields::VOLUME, PACKING))?;
+        let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
         let Scratch {
             mobility,
             storage,
@@ -221,12 +194,12 @@ impl PoreFlow {
         }
         x.clear();
         x.extend(excess.iter().map(|p| Vect::<1>::from([*p])));
-        for i in (0..volume.len()).filter(|&i| soil.has(i)) {
+        for i in (0..volume.len()).filter(|&i| soil(i)) {
             let before = match earlier[i] < 0.0 {
                 true => drained[i],
                 false => earlier[i],
             };
-            let pressure = (before + skeleton.load - excess[i]).max(0.0);
+            let pressure = (before + darcy.load - excess[i]).max(0.0);
             let rate = strain_rate.get(i).copied().unwrap_or(0.0);
             let dilation = self.dilation(packing[i], rate, pressure);
             let modulus = self.law.as_ref().map_or(drainage.contacts, |law| {
@@ -238,7 +211,7 @@ impl PoreFlow {
             storage[i] = stored - v * dilation.slope;
             let constant = dilation.rate + dilation.slope * (gain + excess[i]);
             source[i] = stored * (excess[i] + gain) - v * constant;
-            mobility[i] = skeleton.permeability.at(packing[i]) / skeleton.viscosity;
+            mobility[i] = darcy.permeability(packing[i]) / darcy.viscosity;
             earlier[i] = drained[i];
         }
         diagonal.copy_from_slice(storage);
@@ -260,10 +233,10 @@ impl PoreFlow {
     fn pack<const D: usize>(&self, world: &mut World<D>, growth: &[f64]) -> Result<(), StepError> {
         let mut packing = world.free.take(PACKING)?;
         let grains = world.free.get(GRAIN_VOLUME)?;
-        let soil = self.soil.mask(world)?;
+        let soil = self.soil.test(world)?;
         let densest = self.law.as_ref().map_or(1.0, |law| law.densest());
         let mut bad = None;
-        for i in (0..packing.len()).filter(|&i| soil.has(i)) {
+        for i in (0..packing.len()).filter(|&i| soil(i)) {
             packing[i] = grains[i] / (grains[i] / packing[i] + growth[i]);
             // Not `>=`: a packing that is not a number must be seen.
             if !(packing[i] > 0.0 && packing[i] < densest) {

@@ -22,8 +22,7 @@ pub(crate) fn outlets<const D: usize>(
     fluid: Option<&dyn Fn(usize) -> bool>,
     distance: &SurfaceDistance,
 ) -> Result<Vec<Outlet>, StepError> {
-    let volume = world.free.get(fields::VOLUME)?;
-    let positions = world.free.get(fields::POSITION)?;
+    let (volume, positions) = world.free.all((fields::VOLUME, fields::POSITION))?;
     let grains = Grains { volume, soil };
     // |N|, 1/m, of the part of the kernel beyond the soil; and whether a particle is at the surface.
     let mut exposures = vec![(0.0, false); volume.len()];
@@ -75,8 +74,7 @@ pub(crate) fn feeds<const D: usize>(
     wall: u32,
 ) -> Result<Vec<(usize, f64)>, StepError> {
     let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
-    let positions = world.free.get(fields::POSITION)?;
-    let volume = world.free.get(fields::VOLUME)?;
+    let (positions, volume) = world.free.all((fields::POSITION, fields::VOLUME))?;
     let least = LEAST_DISTANCE * world.spacing;
     let feed = |i: usize| {
         let own = contacts.of_particle(i).iter();
@@ -106,9 +104,7 @@ pub(crate) struct SurfaceDistance {
     radius: f64,
 }
 
-/// Places of the table.
 const PLACES: usize = 256;
-/// Points of an integral.
 const POINTS: usize = 256;
 /// Share of the support radius below which no particle is from its surface.
 const LEAST: f64 = 0.05;

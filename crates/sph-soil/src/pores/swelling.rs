@@ -3,11 +3,10 @@
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::contract::{GRAIN_VOLUME, PACKING};
+use super::columns::{GRAIN_VOLUME, PACKING};
 use super::surface::Outlet;
 use crate::seepage::{Exchange, Gains, Phase};
 
-/// The exchange of fluid between a soil and the flow.
 pub(crate) struct Swelling {
     /// ρ_w, kg/m³.
     pub density: f64,
@@ -32,9 +31,8 @@ impl Swelling {
     ) -> Result<(), StepError> {
         let mut mass = world.free.take(fields::MASS)?;
         let mut constant = world.free.take(fields::DENSITY_CONSTANT)?;
-        let packing = world.free.get(PACKING)?;
-        let grains = world.free.get(GRAIN_VOLUME)?;
-        let density = world.free.get(fields::DENSITY)?;
+        let (packing, grains, density) =
+            world.free.all((PACKING, GRAIN_VOLUME, fields::DENSITY))?;
         let gamma = world.sum_renormalisation();
         for (i, &grown) in growth.iter().enumerate() {
             if grown == 0.0 {

@@ -25,7 +25,6 @@ pub struct Balance {
     pub slid: f64,
 }
 
-/// One of the ways from a place to its neighbours.
 struct Way {
     from: usize,
     to: usize,
@@ -33,7 +32,6 @@ struct Way {
     length: f64,
     /// Width of the border that it crosses, m; 1 in two dimensions.
     width: f64,
-    /// Unit vector along it.
     along: [f64; 2],
 }
 

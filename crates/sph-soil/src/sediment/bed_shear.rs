@@ -11,17 +11,12 @@ pub(super) const WET: f64 = 0.25;
 /// with the bilinear weights of the places around.
 ///
 /// Σ V |∇γ| of a full row is half of the area: where there is less than an eighth, the bed falls dry and the shear with it.
-///
-/// # Errors
-/// If a column is missing, or a sum over all particles fails.
 pub(super) fn shear<const D: usize>(
     world: &World<D>,
     bed: &Bed,
 ) -> Result<Vec<[f64; 2]>, StepError> {
-    let friction = world.free.get(fields::WALL_FRICTION)?;
-    let velocity = world.free.get(fields::VELOCITY)?;
-    let density = world.free.get(fields::DENSITY)?;
-    let volume = world.free.get(fields::VOLUME)?;
+    let (friction, velocity) = world.free.all((fields::WALL_FRICTION, fields::VELOCITY))?;
+    let (density, volume) = world.free.all((fields::DENSITY, fields::VOLUME))?;
     let (walls, owned) = (&world.walls, world.owned());
     let elements = &walls.elements;
     let own = |element: usize| elements.wall[element] == bed.walls[0];

@@ -8,9 +8,8 @@ use sph_core::bed::Bed;
 use sph_core::{Access, StepError, Work, contract, fields, parameters};
 use sph_neighbours::World;
 
-use super::balance::{Packing, balance};
 use super::bed_shear::shear;
-use super::grains::{Grains, critical_ratio};
+use crate::sediment::{Grains, Packing, balance, critical_ratio};
 
 /// A law of bed load.
 pub trait BedLoadLaw: Send {
@@ -86,10 +85,8 @@ impl MovingBed {
     }
 }
 
-/// The law of bed load that a scene names.
 struct BedLoadOfScene<const D: usize> {
     law: Option<Box<dyn BedLoadLaw>>,
-    /// True if the scene names a wall function.
     has_shear: bool,
 }
 
@@ -172,7 +169,6 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
     }
 }
 
-/// Moves the beds of a scene.
 struct BedLoad {
     bed: MovingBed,
     grains: Grains,
@@ -180,7 +176,7 @@ struct BedLoad {
 }
 
 impl BedLoad {
-    /// Critical Shields number on a slope, for a flow along a unit vector.
+    /// Critical Shields number at a place on a slope, for a flow along a unit vector.
     fn critical(&self, gradient: [f64; 2], along: [f64; 2]) -> f64 {
         self.bed.critical(&self.grains)
             * critical_ratio(gradient, along, self.bed.repose_angle.tan())
@@ -188,22 +184,16 @@ impl BedLoad {
 
     /// Critical Shields number at a place; infinite where no water flows.
     fn threshold(&self, bed: &Bed, place: usize) -> f64 {
-        let [x, y] = bed.shear[place];
-        let squared = x.hypot(y);
-        match squared > 0.0 {
-            true => self.critical(gradient(bed, place), [x / squared, y / squared]),
-            false => f64::INFINITY,
-        }
+        flow(bed, place).map_or(f64::INFINITY, |(_, along)| {
+            self.critical(gradient(bed, place), along)
+        })
     }
 
     /// Flux of grains at a place, m²/s.
     fn flux(&self, bed: &Bed, place: usize) -> [f64; 2] {
-        let [x, y] = bed.shear[place];
-        let squared = x.hypot(y);
-        if squared == 0.0 || bed.covered[place] {
+        let Some((squared, along)) = flow(bed, place).filter(|_| !bed.covered[place]) else {
             return [0.0; 2];
-        }
-        let along = [x / squared, y / squared];
+        };
         let gradient = gradient(bed, place);
         let critical = self.critical(gradient, along);
         let shields = self.grains.shields(squared);
@@ -237,11 +227,10 @@ impl BedLoad {
             return Ok(());
         }
         bed.critical = places.map(|k| self.threshold(bed, k)).collect();
-        let cell = bed.grid.cell[0];
         let packing = Packing {
             porosity: self.bed.porosity,
             repose: self.bed.repose_angle.tan(),
-            slide_time: (cell / self.grains.gravity).sqrt(),
+            slide_time: (bed.grid.cell[0] / self.grains.gravity).sqrt(),
         };
         let step = balance(bed, &bed.transport, &packing, dt);
         bed.rate = step.rate;
@@ -249,6 +238,13 @@ impl BedLoad {
         bed.slid += step.slid;
         Ok(())
     }
+}
+
+/// u*², m²/s², and the unit vector of the flow at a place; none where no water flows.
+fn flow(bed: &Bed, place: usize) -> Option<(f64, [f64; 2])> {
+    let [x, y] = bed.shear[place];
+    let squared = x.hypot(y);
+    (squared != 0.0).then(|| (squared, [x / squared, y / squared]))
 }
 
 /// ∇z at a place, by the levels on both sides of it.
@@ -274,9 +270,7 @@ impl<const D: usize> StepHook<D> for BedLoad {
     }
     fn access(&self) -> Access {
         Access::none()
-            .here(fields::WALL_FRICTION)
-            .here(fields::VELOCITY)
-            .here(fields::DENSITY)
+            .here((fields::WALL_FRICTION, fields::VELOCITY, fields::DENSITY))
             .here(fields::VOLUME)
     }
     fn phases(&self) -> &'static [StepPhase] {

@@ -2,10 +2,8 @@
 
 use sph_core::plugin;
 
-use super::grains::Grains;
-use super::moving_bed::{BedLoadEntry, BedLoadLaw, MovingBed};
+use crate::sediment::{BedLoadEntry, BedLoadLaw, Grains, MovingBed};
 
-/// A law's plugin, with its rate.
 macro_rules! bed_load {
     ($plugin:ident, $rate:expr) => {
         impl BedLoadLaw for $plugin {

@@ -4,10 +4,8 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{fields, plugin};
 use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
-use crate::seepage::SeepageEntry;
-use crate::seepage::exchange::{Exchange, Phase};
-use crate::seepage::pore_resistance::PoreResistance;
 use crate::seepage::pore_water::Seeps;
+use crate::seepage::{Exchange, Phase, PoreResistance, SeepageEntry};
 
 /// C q̇ + a q + b |q| q = −∇p + ρ_w (g − Du_s/Dt), div q = 0 in the soil.
 ///

@@ -78,7 +78,6 @@ impl<const D: usize> Net<D> {
     }
 }
 
-/// Exchange between particles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exchange {
     /// χ.
@@ -92,7 +91,6 @@ pub(crate) struct Exchange {
 /// Share of its size by which a water particle must differ before it evens out.
 const EVEN: f64 = 0.005;
 
-/// Gains of particles.
 pub(crate) struct Gains<const D: usize> {
     /// kg.
     pub mass: Vec<f64>,
@@ -164,8 +162,7 @@ impl Exchange {
         phase: &Phase,
         dt: f64,
     ) -> Result<(), StepError> {
-        let number = world.free.get(fields::PHASE)?;
-        let mass = world.free.get(fields::MASS)?;
+        let (number, mass) = world.free.all((fields::PHASE, fields::MASS))?;
         let whole = phase.density * world.spacing.powi(D as i32);
         let water = |i: usize| number[i] == phase.water;
         let uneven = |i: usize| (mass[i] / whole - 1.0).abs() > EVEN;
@@ -173,8 +170,7 @@ impl Exchange {
         if touched.is_empty() || self.evening == 0.0 {
             return Ok(());
         }
-        let volume = world.free.get(fields::VOLUME)?;
-        let velocity = world.free.get(fields::VELOCITY)?;
+        let (volume, velocity) = world.free.all((fields::VOLUME, fields::VELOCITY))?;
         let strength = self.evening * phase.sound_speed * world.kernel.smoothing_length() * dt;
         let mut gains = Gains::none(mass.len());
         let surroundings = Surroundings::new(world)?;
@@ -205,8 +201,7 @@ impl Exchange {
         world: &World<D>,
         phase: &Phase,
     ) -> Result<Option<(usize, f64)>, StepError> {
-        let number = world.free.get(fields::PHASE)?;
-        let mass = world.free.get(fields::MASS)?;
+        let (number, mass) = world.free.all((fields::PHASE, fields::MASS))?;
         let whole = phase.density * world.spacing.powi(D as i32);
         // Sizes of copies are known to the owners.
         let owned = world.owned();

@@ -8,11 +8,9 @@ use sph_multiphase::linear::{
 };
 use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};
 
-use crate::seepage::exchange::{Exchange, Link, Net, Phase};
-use crate::seepage::pore_resistance::PoreResistance;
-use crate::seepage::{SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
+use crate::seepage::exchange::{Link, Net};
+use crate::seepage::{Exchange, Phase, PoreResistance, SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 
-/// The columns that links are made of.
 struct Columns<'a, const D: usize> {
     phase: &'a [u32],
     volume: &'a [f64],
@@ -25,7 +23,6 @@ struct Columns<'a, const D: usize> {
     dt: f64,
 }
 
-/// The flow of one water through the pores of one soil.
 pub(crate) struct Seeps<const D: usize> {
     pub resistance: PoreResistance,
     pub phase: Phase,
@@ -43,19 +40,11 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     }
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::PRESSURE)
-            .both(fields::VOLUME)
-            .both(fields::PHASE)
-            .both(fields::VELOCITY)
-            .both(fields::MASS)
-            .here(SEEPAGE_VELOCITY)
-            .here(SEEPAGE_PRESSURE)
-            .here(fields::IDENTITY)
-            .writes(fields::VELOCITY)
-            .writes(fields::MASS)
-            .writes(self.density)
-            .remembers(SEEPAGE_VELOCITY)
-            .remembers(SEEPAGE_PRESSURE)
+            .both((fields::PRESSURE, fields::VOLUME, fields::PHASE))
+            .both((fields::VELOCITY, fields::MASS))
+            .here((SEEPAGE_VELOCITY, SEEPAGE_PRESSURE, fields::IDENTITY))
+            .writes((fields::VELOCITY, fields::MASS, self.density))
+            .remembers((SEEPAGE_VELOCITY, SEEPAGE_PRESSURE))
             // Links go by depths, which are sums over neighbours, and so do sizes that are evened out.
             .rings(2)
     }
@@ -74,19 +63,14 @@ impl<const D: usize> StepHook<D> for Seeps<D> {
     }
     /// Warns where sizes beside the soil differ so much that the flux is too small.
     fn report(&self, world: &World<D>) -> Report {
-        let uneven = Exchange::most_uneven(world, &self.phase);
-        let uneven = uneven.ok().flatten();
-        let uneven = uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN);
-        let warning = uneven.map(|(_, size)| {
-            format!(
+        let uneven = Exchange::most_uneven(world, &self.phase).ok().flatten();
+        match uneven.filter(|(_, size)| (size - 1.0).abs() > UNEVEN) {
+            None => Report::default(),
+            Some((_, size)) => Report::warning(format!(
                 "seepage: a water particle beside the soil has {size:.2} of its size, and the flux is too small where \
                  sizes differ by more than {UNEVEN} (31 % with 0.07): the grains are too coarse for this spacing; take \
                  a finer one, or finer grains"
-            )
-        });
-        Report {
-            warnings: warning.into_iter().collect(),
-            ..Report::default()
+            )),
         }
     }
 }
@@ -112,8 +96,7 @@ impl<const D: usize> Seeps<D> {
 
     /// All particles in the soil, and the water particles that have soil in reach.
     fn net(&self, world: &World<D>, dt: f64) -> Result<Net<D>, StepError> {
-        let phase = world.free.get(fields::PHASE)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
         let shares = |wanted: &(dyn Fn(usize) -> bool + Sync)| {
             walk_some(world, sph_neighbours::Values::Both, wanted, |around| {
                 self.depth(phase, volume, world.kernel.value_at_zero(), around)
@@ -125,9 +108,10 @@ impl<const D: usize> Seeps<D> {
             water.iter().for_each(|&i| touched[i as usize] = true);
         }
         let beside = shares(&|i| touched[i])?;
-        let depth = ground.iter().zip(&beside);
-        let depth = depth.map(|(a, b)| a.as_ref().or(b.as_ref()).map_or(0.0, |found| found.0));
-        let depth: Vec<f64> = depth.collect();
+        let both = ground.iter().zip(&beside);
+        let depth: Vec<f64> = both
+            .map(|(a, b)| a.as_ref().or(b.as_ref()).map_or(0.0, |found| found.0))
+            .collect();
         let columns = Columns {
             phase,
             volume,
@@ -145,8 +129,9 @@ impl<const D: usize> Seeps<D> {
             self.links(&columns, &around.rows)
         })?;
         let all = all.into_iter().enumerate();
-        let taking_part = all.filter_map(|(i, links)| Some((i as u32, links?)));
-        let (particles, links) = taking_part.unzip();
+        let (particles, links) = all
+            .filter_map(|(i, links)| Some((i as u32, links?)))
+            .unzip();
         Ok(Net { particles, links })
     }
 
@@ -238,8 +223,7 @@ impl<const D: usize> Seeps<D> {
     /// particles are given.
     fn pressures(&mut self, world: &mut World<D>, net: &Net<D>) -> Result<Vec<f64>, StepError> {
         let mut seeping = world.free.take(SEEPAGE_PRESSURE)?;
-        let phase = world.free.get(fields::PHASE)?;
-        let present = world.free.get(fields::PRESSURE)?;
+        let (phase, present) = world.free.all((fields::PHASE, fields::PRESSURE))?;
         let soil = |i: u32| phase[i as usize] == self.phase.soil;
         let mut row = vec![u32::MAX; phase.len()];
         let grounds = net.particles.iter().filter(|i| soil(**i));
@@ -282,15 +266,14 @@ impl<const D: usize> Seeps<D> {
         let system = ParticleMatrix::new(&matrix, &space, Some(&places));
         let solved = self.solver.solve(&system, &right, &mut x);
         solved.map_err(|e| StepError::stage("seepage", e.to_string()))?;
-        let found = net.particles.iter().map(|&i| match soil(i) {
-            true => x[row[i as usize] as usize][0],
-            false => present[i as usize],
-        });
-        let found: Vec<f64> = found.collect();
         seeping.fill(0.0);
-        for (&particle, p) in net.particles.iter().zip(&found) {
-            seeping[particle as usize] = *p;
+        for &i in &net.particles {
+            seeping[i as usize] = match soil(i) {
+                true => x[row[i as usize] as usize][0],
+                false => present[i as usize],
+            };
         }
+        let found = net.particles.iter().map(|&i| seeping[i as usize]).collect();
         world.free.put(SEEPAGE_PRESSURE, seeping)?;
         Ok(found)
     }
@@ -319,10 +302,7 @@ impl<const D: usize> Seeps<D> {
                 sum -= link.separation * (link.share / link.within * drive);
                 moment += link.separation * link.separation.transpose() * link.share;
             }
-            let force = match trusted_inverse(&moment) {
-                Some(inverse) => inverse * sum,
-                None => sum,
-            };
+            let force = trusted_inverse(&moment).map_or(sum, |inverse| inverse * sum);
             let inertia = self.resistance.inertia / dt;
             let mobility = self.resistance.mobility(flux[i].norm(), dt);
             flux[i] = (flux[i] * inertia + force) * mobility;

@@ -3,36 +3,27 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, SMatrix};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_core::{Access, Stage, StepError, Symmetric, Vect, fields, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World, dot,
-    scaled, walk_in_lanes,
+    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, WallPoints,
+    World, dot, scaled, walk_in_lanes,
 };
 
 use crate::stress::strain_rate::in_space;
 use crate::stress::{NeighbourSums, VelocityGradient};
 
 /// [`STRESS_CORRECTION`](fields::STRESS_CORRECTION) C_a of a velocity gradient, where the particles are now.
-pub struct StressCorrection<const D: usize>(pub Arc<dyn VelocityGradient<D>>);
-
-impl<const D: usize> Declares for StressCorrection<D> {
-    fn name(&self) -> String {
-        "stress correction".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .both(fields::POSITION)
-            .neighbours(fields::VOLUME)
-            .writes(fields::STRESS_CORRECTION)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+pub(crate) fn stress_correction<const D: usize>(
+    formula: Arc<dyn VelocityGradient<D>>,
+) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .both(fields::POSITION)
+        .neighbours(fields::VOLUME)
+        .writes(fields::STRESS_CORRECTION);
+    stage("stress correction", access, move |world: &mut World<D>| {
         let mut corrections = world.free.take(fields::STRESS_CORRECTION)?;
         let volume = world.free.get(fields::VOLUME)?;
-        let points = &world.walls.points;
-        let elements = &world.walls.elements;
+        let (points, elements) = (&world.walls.points, &world.walls.elements);
         let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
             let mut position = SMatrix::<f64, D, D>::from_fn(|i, k| free[i][k]);
             for (v, pair) in rows.wall.pairs() {
@@ -43,7 +34,7 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
                 let foot = elements.normal[contact.element as usize] * contact.distance;
                 position += foot * contact.gradient.transpose();
             }
-            self.0.correction(&NeighbourSums {
+            formula.correction(&NeighbourSums {
                 velocity: SMatrix::zeros(),
                 position,
                 inverse_renormalisation: rows.inverse_renormalisation,
@@ -52,7 +43,7 @@ impl<const D: usize> Stage<World<D>> for StressCorrection<D> {
         let free = FreePositions { volume };
         walk_in_lanes(world, &free, |_| true, &mut corrections, correction)?;
         Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
-    }
+    })
 }
 
 /// −Σ V r ⊗ ∇w of free neighbours.
@@ -93,33 +84,24 @@ impl<const D: usize> PairTerm<D> for AdjointDivergence {
     fn name(&self) -> String {
         "adjoint stress divergence".into()
     }
-
     fn access(&self) -> Access {
         Access::none()
-            .both(fields::CARRIED_STRESS)
-            .both(fields::STRESS_CORRECTION)
+            .both((fields::CARRIED_STRESS, fields::STRESS_CORRECTION))
             .both(fields::VOLUME)
             .here(fields::MASS)
     }
-
     fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundAdjoint<'a, D>, StepError> {
-        let stress = world.free.get(fields::CARRIED_STRESS)?;
-        let correction = world.free.get(fields::STRESS_CORRECTION)?;
-        let both = stress.iter().zip(correction);
-        let points = &world.walls.points;
+        let stress = world.free.get(fields::CARRIED_STRESS)?.iter();
+        let both = stress.zip(world.free.get(fields::STRESS_CORRECTION)?);
+        // Rows that are taken for columns are those of the transpose.
+        let product = |t: &Symmetric, c| t.matrix() * Matrix3::from(in_space(c));
         Ok(BoundAdjoint {
             stress: both
-                .map(|(t, c)| {
-                    // Rows that are taken for columns are those of the transpose.
-                    (t.matrix() * Matrix3::from(in_space(c)))
-                        .fixed_view::<D, D>(0, 0)
-                        .into_owned()
-                })
+                .map(|(t, c)| product(t, c).fixed_view::<D, D>(0, 0).into_owned())
                 .collect(),
             volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,
-            wall_volume: &points.volume,
-            wall_share: &points.share,
+            points: &world.walls.points,
         })
     }
 }
@@ -130,8 +112,7 @@ pub struct BoundAdjoint<'a, const D: usize> {
     stress: Vec<SMatrix<f64, D, D>>,
     volume: &'a [f64],
     mass: &'a [f64],
-    wall_volume: &'a [f64],
-    wall_share: &'a [f64],
+    points: &'a WallPoints<D>,
 }
 
 impl<const D: usize> PairSum<D> for BoundAdjoint<'_, D> {
@@ -168,7 +149,7 @@ impl<const D: usize> BoundTerm<D> for BoundAdjoint<'_, D> {
         let stress = &self.stress[i];
         let mut sum = Vect::from(sum);
         for (v, pair) in at.wall.pairs() {
-            let weight = 2.0 * self.wall_share[v] * self.wall_volume[v] * pair.factor;
+            let weight = 2.0 * self.points.share[v] * self.points.volume[v] * pair.factor;
             sum += stress * pair.separation * weight;
         }
         for contact in at.contacts {

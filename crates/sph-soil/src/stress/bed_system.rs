@@ -44,7 +44,6 @@ impl Part {
     }
 }
 
-/// Couplings of the pressures.
 pub(crate) struct Couplings<'a, const D: usize> {
     /// The rows that count.
     pub owned: &'a Owned,
@@ -56,7 +55,6 @@ pub(crate) struct Couplings<'a, const D: usize> {
     pub gravity: Vect<D>,
 }
 
-/// Coefficients of a cluster for its rows.
 #[derive(Default)]
 pub(crate) struct ClusterCoefficients {
     /// c and what it adds to the source, for every candidate, one number per lane each.
@@ -132,7 +130,6 @@ impl<const D: usize> PairNumbers<D, 2> for Couplings<'_, D> {
     }
 }
 
-/// Sums of the rows of a cluster.
 struct SideBySide<'a> {
     parts: &'a [Part],
     candidates: &'a [u32],
@@ -140,7 +137,6 @@ struct SideBySide<'a> {
 }
 
 impl Body for SideBySide<'_> {
-    /// Diagonals and sources.
     type Output = ([f64; MOST], [f64; MOST]);
 
     #[inline(always)]

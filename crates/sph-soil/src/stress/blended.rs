@@ -73,7 +73,6 @@ impl<const D: usize> Interaction<D> for Blended<D> {
     }
 }
 
-/// [`Blended`] with its columns.
 struct BoundBlended<'a, const D: usize> {
     term: &'a dyn RowTerm<D>,
     share: &'a [f64],
@@ -86,7 +85,7 @@ impl<const D: usize> RowTerm<D> for BoundBlended<'_, D> {
         if share == 1.0 {
             return self.term.row(at, rates);
         }
-        let mut whole = nothing();
+        let mut whole = Rates::from_acceleration(Vect::zeros());
         self.term.row(at, &mut whole);
         let apart = self.of_others(at);
         rates.acceleration +=
@@ -98,14 +97,10 @@ impl<const D: usize> RowTerm<D> for BoundBlended<'_, D> {
     }
 }
 
-fn nothing<const D: usize>() -> Rates<D> {
-    Rates::from_acceleration(Vect::zeros())
-}
-
 impl<const D: usize> BoundBlended<'_, D> {
     /// The part of neighbours that act wholly.
     fn of_others(&self, at: &Neighbourhood<'_, D>) -> Rates<D> {
-        let mut rates = nothing();
+        let mut rates = Rates::from_acceleration(Vect::zeros());
         let Some((phase, apart)) = self.apart else {
             return rates;
         };
@@ -117,24 +112,19 @@ impl<const D: usize> BoundBlended<'_, D> {
         fn selected<T: Copy>(kept: &[usize], column: &[T]) -> Vec<T> {
             kept.iter().map(|k| column[*k]).collect()
         }
-        let index = selected(&kept, at.free.index);
-        let separation = selected(&kept, at.free.separation);
-        let distance2 = selected(&kept, at.free.distance2);
-        let factor = selected(&kept, at.free.factor);
-        let none = Row {
-            index: &[],
-            separation: &[],
-            distance2: &[],
-            factor: &[],
-        };
         let others = Neighbourhood {
             free: Row {
-                index: &index,
-                separation: &separation,
-                distance2: &distance2,
-                factor: &factor,
+                index: &selected(&kept, at.free.index),
+                separation: &selected(&kept, at.free.separation),
+                distance2: &selected(&kept, at.free.distance2),
+                factor: &selected(&kept, at.free.factor),
             },
-            wall: none,
+            wall: Row {
+                index: &[],
+                separation: &[],
+                distance2: &[],
+                factor: &[],
+            },
             contacts: ContactRow::NONE,
             ..*at
         };

@@ -32,9 +32,6 @@ pub struct CoulombFriction {
 
 impl CoulombFriction {
     /// Loads of particles on walls at the state of the last evaluation; called before a kick.
-    ///
-    /// # Errors
-    /// If a column is missing.
     fn pressed<const D: usize>(
         &self,
         world: &World<D>,
@@ -56,9 +53,6 @@ impl CoulombFriction {
 
     /// Brakes all particles at walls over a kick of `dt`, with what the elements get of
     /// [`Self::pressed`]; called after the kick. Returns the forces on the walls.
-    ///
-    /// # Errors
-    /// If a column is missing.
     fn apply<const D: usize>(
         &self,
         world: &mut World<D>,
@@ -68,13 +62,13 @@ impl CoulombFriction {
         let soil = self.soil(world)?;
         let contacts = &world.walls.contacts;
         let particles = contacts.particles.par_iter().with_min_len(512);
-        let pulls = particles.map(|&i| soil.pull(i as usize, pressed, dt));
-        let pulls: Vec<Pull<D>> = pulls.collect();
-        let mut velocity = world.free.take(fields::VELOCITY)?;
+        let pulls: Vec<Pull<D>> = particles
+            .map(|&i| soil.pull(i as usize, pressed, dt))
+            .collect();
+        let velocity = world.free.get_mut(fields::VELOCITY)?;
         for (&particle, pull) in contacts.particles.iter().zip(&pulls) {
             velocity[particle as usize] += pull.change;
         }
-        world.free.put(fields::VELOCITY, velocity)?;
         wall_forces(world, &pulls, dt)
     }
 
@@ -105,12 +99,9 @@ impl<const D: usize> StepHook<D> for CoulombFriction {
     fn access(&self) -> Access {
         Access::none()
             .both(fields::POSITION)
-            .here(self.pressure)
-            .here(fields::PRESSURE)
-            .here(fields::VOLUME)
+            .here((self.pressure, fields::PRESSURE, fields::VOLUME))
             .here(fields::MASS)
-            .where_there(fields::PHASE)
-            .where_there(fields::CARRIED_STRESS)
+            .where_there((fields::PHASE, fields::CARRIED_STRESS))
             .writes(fields::VELOCITY)
             // What a particle presses on a wall holds sums over its neighbours, and an element sums that up.
             .rings(2)
@@ -131,7 +122,6 @@ impl<const D: usize> StepHook<D> for CoulombFriction {
     }
 }
 
-/// Action of a wall on a particle.
 struct Pull<const D: usize> {
     /// Change of the velocity, m/s.
     change: Vect<D>,
@@ -146,22 +136,19 @@ fn wall_forces<const D: usize>(
     dt: f64,
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let (elements, contacts) = (&world.walls.elements, &world.walls.contacts);
-    let position = world.free.get(fields::POSITION)?;
-    let mass = world.free.get(fields::MASS)?;
+    let (position, mass) = world.free.all((fields::POSITION, fields::MASS))?;
     let owned = world.owned();
-    let rubs = |wall: usize| {
-        let all = elements.coulomb.iter().zip(&elements.wall);
-        all.into_iter()
-            .any(|(c, w)| *w as usize == wall && c.coefficient > 0.0)
+    let rubs = |s: usize, wall: usize| {
+        elements.wall[s] as usize == wall && elements.coulomb[s].coefficient > 0.0
     };
     let on = |wall: usize| {
+        if !(0..elements.coulomb.len()).any(|s| rubs(s, wall)) {
+            return Ok(WallForce::zero());
+        }
         let part = |k: usize| {
             let (i, pull) = (contacts.particles[k] as usize, &pulls[k]);
-            let rubbed = |c: &Contact<D>| {
-                let s = c.element as usize;
-                elements.wall[s] as usize == wall && elements.coulomb[s].coefficient > 0.0
-            };
-            let rubbed = contacts.of_particle(i).iter().filter(rubbed);
+            let own = contacts.of_particle(i).iter();
+            let rubbed = own.filter(|c| rubs(c.element as usize, wall));
             let gradient: f64 = rubbed.map(|c| c.gradient.norm()).sum();
             if gradient == 0.0 || !owned.has(i) {
                 return None;
@@ -171,11 +158,7 @@ fn wall_forces<const D: usize>(
         };
         Ok(WallForce::from_sums(world.sums_of(pulls.len(), &part)?))
     };
-    let force = |wall: usize| match rubs(wall) {
-        true => on(wall),
-        false => Ok(WallForce::zero()),
-    };
-    (0..world.walls.names.len()).map(force).collect()
+    (0..world.walls.names.len()).map(on).collect()
 }
 
 /// Sums over the particles before an element, or before a corner of elements.
@@ -189,7 +172,6 @@ struct ElementSums {
     tractions: [f64; 2],
 }
 
-/// The columns.
 struct Soil<'a, const D: usize> {
     phase: Option<&'a [u32]>,
     rubs: &'a [bool],

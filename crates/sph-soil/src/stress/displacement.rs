@@ -95,38 +95,21 @@ pub struct BoundDisplacement<'a, const D: usize> {
     mass: &'a [f64],
     #[value(&world.walls)]
     walls: &'a WallSet<D>,
-    /// Of the operator.
     #[value(self.choice.on_lattice.scale(EspanolRevenga::default(), world))]
     scale: f64,
     #[value(world.spacing)]
     spacing: f64,
 }
 
-/// The elastic part of a particle.
-#[derive(Clone, Copy)]
-struct Solid {
-    /// 𝒢, Pa.
-    modulus: f64,
-    /// Share that acts in the sums.
-    share: f64,
-}
-
-impl Solid {
-    fn stiffness(self) -> f64 {
-        self.modulus * self.share
-    }
-}
-
 impl<const D: usize> BoundDisplacement<'_, D> {
+    /// 𝒢 of a particle, Pa, and the share of it that acts in the sums.
     #[inline(always)]
-    fn solid(&self, i: usize) -> Solid {
-        Solid {
-            modulus: self.moduli[self.phase.map_or(0, |p| p[i] as usize)],
-            share: match self.blend {
-                Blend::Stresses => self.share[i],
-                Blend::Forces => 1.0,
-            },
-        }
+    fn solid(&self, i: usize) -> [f64; 2] {
+        let share = match self.blend {
+            Blend::Stresses => self.share[i],
+            Blend::Forces => 1.0,
+        };
+        [self.moduli[self.phase.map_or(0, |p| p[i] as usize)], share]
     }
 }
 
@@ -146,25 +129,27 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
 
     #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
-        let solid = |i: usize| self.solid(i);
-        let [modulus, stiffness] = all.each(|i| [solid(i).modulus, solid(i).stiffness()]);
+        let [modulus, stiffness] = all.each(|i| {
+            let [modulus, share] = self.solid(i);
+            [modulus, modulus * share]
+        });
         Own {
             modulus,
             stiffness,
             displacement: all.vectors(self.displacement),
-            turn: all.each(|i| (self.turn[i] * solid(i).share).0),
+            turn: all.each(|i| (self.turn[i] * self.solid(i)[1]).0),
             volume: all.numbers(self.volume),
         }
     }
 
     #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
-        let solid = self.solid(j);
+        let [modulus, share] = self.solid(j);
         let zero = L::splat(0.0);
-        if solid.modulus == 0.0 || !zero.any_less(own.modulus) {
+        if modulus == 0.0 || !zero.any_less(own.modulus) {
             return;
         }
-        let there = L::splat(solid.stiffness());
+        let there = L::splat(modulus * share);
         // The harmonic mean, 0 if either is.
         let mean = L::splat(2.0) * own.stiffness * there / (own.stiffness + there);
         let mean = own
@@ -173,7 +158,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
         let apart = minus(&own.displacement, &self.displacement[j]);
         let volume = L::splat(self.volume[j]);
         let force = EspanolRevenga::default().forces(own.volume, volume, &apart, pair);
-        let turn = self.turn[j] * solid.share;
+        let turn = self.turn[j] * share;
         for (k, (sum, force)) in sum.iter_mut().zip(force).enumerate() {
             let mut turned = [zero; D];
             for (turned, place) in turned.iter_mut().zip(Symmetric::PLACE[k]) {
@@ -191,7 +176,8 @@ impl<const D: usize> BoundTerm<D> for BoundDisplacement<'_, D> {
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (displacement, volume) = (self.displacement[i], self.volume[i]);
-        let stiffness = self.solid(i).stiffness();
+        let [modulus, share] = self.solid(i);
+        let stiffness = modulus * share;
         let mut sum = Sum::new(sum);
         for (v, pair) in at.wall.pairs() {
             let points = &self.walls.points;

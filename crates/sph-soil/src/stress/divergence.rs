@@ -120,7 +120,6 @@ pub struct Sum<const D: usize> {
 }
 
 impl<const D: usize> Sum<D> {
-    /// Of free neighbours.
     #[inline(always)]
     pub(crate) fn new(force: [f64; D]) -> Self {
         Sum {

@@ -5,8 +5,8 @@ use sph_core::{Access, Declares, Pool, Stage, StepError, Symmetric, Vect, fields
 use sph_neighbours::World;
 use sph_rheology::{Elastic, Gradient, Yielding, jaumann};
 
-use crate::stress::strain_rate::in_space;
-use crate::stress::{GradientStage, LawInputs, StrainRate};
+use crate::stress::strain_rate::{in_space, set_strain_rates};
+use crate::stress::{GradientStage, LawInputs};
 
 /// Advances [`ELASTIC_STRESS`](fields::ELASTIC_STRESS) while positions drift, with the velocities
 /// of the drift: together with the kick this is symplectic, and undamped elastic waves keep their
@@ -29,26 +29,20 @@ pub struct ElasticMotion<const D: usize> {
 
 impl<const D: usize> ElasticMotion<D> {
     /// Advances all stresses over `dt` at the present places and velocities.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    pub(crate) fn apply(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         self.gradient.run(world)?;
         self.advance(world, dt)
     }
 
     /// The same between two steps of a force: copies of others' particles follow their owners at once.
-    ///
-    /// # Errors
-    /// As [`apply`](Self::apply).
-    pub fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
+    pub(crate) fn apply_within(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         world.run(&mut self.gradient)?;
         self.advance(world, dt)
     }
 
     fn advance(&self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         if world.free.has(fields::STRAIN_RATE.name) {
-            StrainRate.run(world)?;
+            set_strain_rates(world)?;
         }
         if self.displaced {
             return self.displace(world, dt);
@@ -92,8 +86,7 @@ impl<const D: usize> ElasticMotion<D> {
                 let mut yielding = vec![Yielding::NONE; out.len()];
                 elastic.yielding(inputs, &stress, &mut yielding);
                 let moved = gradient[run.clone()].iter().zip(&velocity[run]);
-                let all = out.iter_mut().zip(yielding).zip(moved);
-                all.for_each(
+                out.iter_mut().zip(yielding).zip(moved).for_each(
                     |((memory, yielding), (gradient, velocity))| match yielding.forgets {
                         true => *memory = Memory::none(),
                         false => memory.advance(elastic, &in_space(gradient), velocity, dt),
@@ -117,15 +110,13 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
     fn access(&self) -> Access {
         let access = self.gradient.access().and(self.law_inputs.access());
         let access = access
-            .remembers(fields::ELASTIC_STRESS)
-            .remembers(fields::VELOCITY_GRADIENT)
+            .remembers((fields::ELASTIC_STRESS, fields::VELOCITY_GRADIENT))
             .writes(fields::STRAIN_RATE);
         match self.displaced {
             false => access,
             true => access
                 .here(fields::VELOCITY)
-                .remembers(fields::ELASTIC_DISPLACEMENT)
-                .remembers(fields::STRESS_ROTATION),
+                .remembers((fields::ELASTIC_DISPLACEMENT, fields::STRESS_ROTATION)),
         }
     }
     fn phases(&self) -> &'static [StepPhase] {
@@ -136,7 +127,6 @@ impl<const D: usize> StepHook<D> for ElasticMotion<D> {
     }
 }
 
-/// Memory of a particle since it was last liquid.
 #[derive(Clone, Copy)]
 struct Memory<const D: usize> {
     /// τ, not cut.

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Kick, OutsideForce, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, Declares, Stage, StepError, Vect, fields};
+use sph_core::{Access, Stage, StepError, Vect, fields};
 use sph_neighbours::{World, accelerations_of};
 
-use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
+use crate::stress::ElasticMotion;
 
 /// u and τ over a step of the flow, N times, at places, volumes, pressures and viscosities that stay:
 ///
@@ -27,9 +27,9 @@ use crate::stress::{CarriedStress, ElasticMotion, LawInputs};
 pub struct ElasticSubSteps<const D: usize> {
     /// A force that reads no velocity.
     pub(crate) term: OutsideForce<D>,
-    /// The motion of its stresses.
     pub(crate) motion: ElasticMotion<D>,
-    pub(crate) law_inputs: LawInputs,
+    /// The stress that acts, from the remembered one.
+    pub(crate) carried: Box<dyn Stage<World<D>>>,
     /// The longest sub-step, s.
     pub(crate) longest: f64,
     pub(crate) touched: Vec<bool>,
@@ -41,14 +41,6 @@ pub struct ElasticSubSteps<const D: usize> {
 }
 
 impl<const D: usize> ElasticSubSteps<D> {
-    /// The bound on sub-steps, for listings.
-    pub(crate) fn bound(&self) -> String {
-        format!(
-            "elastic sub-steps: {:.2e} s at most, as many within a step as it takes",
-            self.longest
-        )
-    }
-
     /// N for a step Δt, s.
     pub fn count(&self, dt: f64) -> usize {
         (dt / self.longest - 1e-9).ceil().max(1.0) as usize
@@ -65,7 +57,7 @@ impl<const D: usize> ElasticSubSteps<D> {
 
     /// Particles that carry stress or have a neighbour that does.
     fn find_touched(&mut self, world: &World<D>) -> Result<(), StepError> {
-        let laws = self.law_inputs.laws.iter();
+        let laws = self.motion.law_inputs.laws.iter();
         let carries: Vec<bool> = laws.map(|l| l.elastic().is_some()).collect();
         let touched = &mut self.touched;
         touched.clear();
@@ -73,8 +65,7 @@ impl<const D: usize> ElasticSubSteps<D> {
         if carries.iter().all(|c| *c) {
             return Ok(());
         }
-        let phase = world.free.get(fields::PHASE)?;
-        let position = world.free.get(fields::POSITION)?;
+        let (phase, position) = world.free.all((fields::PHASE, fields::POSITION))?;
         let limit = world.kernel.support_radius().powi(2);
         let lists = world.lists.nearest();
         let carries = |i: usize| carries[phase[i] as usize];
@@ -96,9 +87,9 @@ impl<const D: usize> StepHook<D> for ElasticSubSteps<D> {
         "elastic sub-steps".into()
     }
     fn access(&self) -> Access {
-        let access = StepHook::access(&self.motion).and(self.term.access());
-        access
-            .and(CarriedStress(self.law_inputs.clone()).access())
+        StepHook::access(&self.motion)
+            .and(self.term.access())
+            .and(self.carried.access())
             .both(fields::POSITION)
             .here(fields::ACCELERATION)
             .where_there(fields::PHASE)
@@ -138,15 +129,14 @@ impl<const D: usize> Kick<D> for ElasticSubSteps<D> {
         let space = world.space()?;
         // Whether copies of others' particles have soil around, their owners know.
         space.refresh_marked(&mut self.touched, |touched| *touched, |_, touched| touched);
-        let particles = world.free.len();
-        self.acceleration.resize(particles, Vect::zeros());
+        self.acceleration.resize(world.free.len(), Vect::zeros());
         let more = 0.5 * (1.0 - 1.0 / count as f64);
         let before = world.free.get(fields::VELOCITY)?;
         self.mean.clear();
         self.mean.extend(before.iter().map(|u| -u * more));
         for step in 1..=count {
             if step > 1 {
-                CarriedStress(self.law_inputs.clone()).run(world)?;
+                self.carried.run(world)?;
             }
             let touched = &self.touched;
             accelerations_of(world, &*self.term, |i| touched[i], &mut self.acceleration)?;

@@ -24,7 +24,6 @@ pub struct Gathered<const D: usize> {
 #[derive(Clone, Copy)]
 struct Slipping<const D: usize> {
     sums: [SMatrix<f64, D, D>; 2],
-    /// Its normal.
     facing: Vect<D>,
 }
 
@@ -80,7 +79,6 @@ impl<const D: usize> Gathered<D> {
         }
     }
 
-    /// The gradient by a formula.
     pub(crate) fn gradient(
         &self,
         formula: &dyn VelocityGradient<D>,

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, Work, fields,
-    parameters, plugin,
+    parameters, plugin, stage,
 };
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
@@ -31,22 +31,11 @@ contribution_kind!(
 /// effective pressure p' that between the grains, 0 outside of soils.
 ///
 /// Source: Ghaïtanellis 2017, Eq. 5.26.
-pub struct PorePressure;
-
-impl Declares for PorePressure {
-    fn name(&self) -> String {
-        "pore pressure".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::PRESSURE)
-            .here(fields::EFFECTIVE_PRESSURE)
-            .writes(fields::PORE_PRESSURE)
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for PorePressure {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+fn pore_pressure<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
+        .writes(fields::PORE_PRESSURE);
+    stage("pore pressure", access, |world: &mut World<D>| {
         let mut pore = world.free.take(fields::PORE_PRESSURE)?;
         let whole = world.free.get(fields::PRESSURE)?;
         let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
@@ -54,7 +43,7 @@ impl<const D: usize> Stage<World<D>> for PorePressure {
         let all = pore.par_iter_mut().zip(both).with_min_len(2048);
         all.for_each(|(pore, (whole, effective))| *pore = whole - effective);
         Ok(world.free.put(fields::PORE_PRESSURE, pore)?)
-    }
+    })
 }
 
 /// Solver of the effective pressure.
@@ -152,7 +141,10 @@ impl Laplace {
                     sweeps: self.iterations.unwrap_or(100_000),
                 }),
             },
-            scratch: Scratch::default(),
+            parts: Vec::new(),
+            assembly: Assembly::default(),
+            pressure: Vec::new(),
+            pool: Pool::default(),
         }
     }
 }
@@ -163,12 +155,11 @@ impl<const D: usize> Contribution<D> for Laplace {
             let why = "no law of this scene reads a pressure: take this table out";
             return Err(Refusal::at_key("effective-pressure", "", why));
         }
-        offer.stage(PorePressure);
+        offer.stage(pore_pressure());
         offer.saturated = self.pore_density > 0.0;
         let why = "the pressure between the grains could not be solved for: raise \
                    `effective-pressure.laplace.iterations`, or loosen its `tolerance`";
-        let remedy = ("effective pressure", why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push(("effective pressure", why.into()));
         Ok(())
     }
     fn offer_to_readers(
@@ -188,7 +179,6 @@ impl<const D: usize> Contribution<D> for Laplace {
     }
 }
 
-/// The stage of [`Laplace`].
 struct Solve<const D: usize> {
     /// The column of the pressure: another than p' where pores are not at rest.
     target: Field<Scalar>,
@@ -202,19 +192,11 @@ struct Solve<const D: usize> {
     interval: f64,
     /// True if the solver needs the rows of all particles.
     whole: bool,
-    /// Of systems with one component.
     solver: Box<dyn LinearSolver<1>>,
-    /// The memory of former solves.
-    scratch: Scratch,
-}
-
-/// Buffers of a solve, kept for their memory.
-#[derive(Default)]
-struct Scratch {
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
     pressure: Vec<Vect<1>>,
-    scratch_pool: Pool<ClusterCoefficients>,
+    pool: Pool<ClusterCoefficients>,
 }
 
 impl<const D: usize> Declares for Solve<D> {
@@ -223,8 +205,7 @@ impl<const D: usize> Declares for Solve<D> {
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VOLUME)
+            .both((fields::POSITION, fields::VOLUME))
             // A solve starts from the last one.
             .remembers(self.target);
         match self.buoyant.len() {
@@ -249,31 +230,22 @@ impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn bytes(&self) -> usize {
         let Assembly {
             pattern, values, ..
-        } = &self.scratch.assembly;
+        } = &self.assembly;
         size_of_val(&pattern.starts[..])
             + size_of_val(&pattern.columns[..])
             + size_of_val(&values.diagonal[..])
             + size_of_val(&values.others[..])
-            + size_of_val(&self.scratch.pressure[..])
+            + size_of_val(&self.pressure[..])
     }
 }
 
 impl<const D: usize> Solve<D> {
     fn solve(&mut self, world: &mut World<D>) -> Result<Report, StepError> {
-        let mut scratch = std::mem::take(&mut self.scratch);
-        let solved = self.solve_in(world, &mut scratch);
-        self.scratch = scratch;
-        solved
-    }
-
-    fn solve_in(
-        &mut self,
-        world: &mut World<D>,
-        scratch: &mut Scratch,
-    ) -> Result<Report, StepError> {
         let space = world.space()?;
-        self.parts(world, &space, &mut scratch.parts)?;
-        let (parts, assembly) = (&scratch.parts, &mut scratch.assembly);
+        let mut parts = std::mem::take(&mut self.parts);
+        self.find_parts(world, &space, &mut parts)?;
+        self.parts = parts;
+        let (parts, assembly) = (&self.parts, &mut self.assembly);
         let system = Couplings {
             owned: space.owned(),
             parts,
@@ -283,19 +255,18 @@ impl<const D: usize> Solve<D> {
         assembly.fill_wanted(
             world,
             |i| system.is_solved(i),
-            |rows, cluster| system.add(cluster, rows, &scratch.scratch_pool),
+            |rows, cluster| system.add(cluster, rows, &self.pool),
             |rows, others| others.for_each(|i| system.add_known(i, rows)),
         )?;
         let values = std::mem::take(&mut assembly.values);
         let matrix = Matrix::on(assembly.pattern.clone(), Entries::Scalar(values));
         let mut pressure = world.free.take(self.target)?;
-        let x = &mut scratch.pressure;
+        let x = &mut self.pressure;
         x.clear();
         let both = pressure.iter().zip(parts);
         x.extend(both.map(|(p, part)| start(*p, part)));
-        let sources = &assembly.sources;
         let system = ParticleMatrix::new(&matrix, &space, None);
-        let solved = self.solver.solve(&system, sources, x);
+        let solved = self.solver.solve(&system, &assembly.sources, x);
         let both = pressure.iter_mut().zip(&*x);
         both.for_each(|(p, x)| *p = x[0].max(0.0));
         world.free.put(self.target, pressure)?;
@@ -314,7 +285,7 @@ impl<const D: usize> Solve<D> {
     }
 
     /// The roles of all particles; marks of copies at the surface are those of their owners.
-    fn parts(
+    fn find_parts(
         &self,
         world: &World<D>,
         space: &Space<D>,

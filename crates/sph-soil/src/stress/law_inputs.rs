@@ -26,12 +26,10 @@ impl LawInputs {
         self.laws.iter().any(|l| l.needs().strain_rate)
     }
 
-    /// True if some law reads a pressure.
     fn feels_pressure(&self) -> bool {
         self.laws.iter().any(|l| l.needs().pressure)
     }
 
-    /// The columns that the laws read.
     pub(crate) fn access(&self) -> Access {
         let mut access = Access::none();
         if self.laws.len() > 1 {

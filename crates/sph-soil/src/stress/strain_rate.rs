@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::SMatrix;
 use rayon::prelude::*;
-use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields};
+use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields, stage};
 use sph_neighbours::{
     BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World, pair_term,
     scaled, walk_in_lanes,
@@ -25,22 +25,13 @@ pub struct GradientStage<const D: usize> {
     pub phases: Option<Arc<[bool]>>,
 }
 
-impl<const D: usize> GradientStage<D> {
-    /// For the particles of all phases.
-    pub fn everywhere(formula: Arc<dyn VelocityGradient<D>>) -> Self {
-        let phases = None;
-        GradientStage { formula, phases }
-    }
-}
-
 impl<const D: usize> Declares for GradientStage<D> {
     fn name(&self) -> String {
         "velocity gradient".into()
     }
     fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::VELOCITY)
+            .both((fields::POSITION, fields::VELOCITY))
             .neighbours(fields::VOLUME)
             .writes(fields::VELOCITY_GRADIENT);
         match self.phases {
@@ -76,13 +67,8 @@ impl<const D: usize> Stage<World<D>> for GradientStage<D> {
     }
 }
 
-/// γ̇ = √(2 D:D) with the deviatoric D = ½(G + Gᵀ) − ⅓ tr(G) I, out of the plane included.
-///
-/// Source: Ghaïtanellis 2017, Eq. 4.6 and 4.88.
-pub struct StrainRate;
-
 /// A gradient in the plane, or in space, as one in space.
-pub fn in_space<const D: usize>(gradient: &SMatrix<f64, D, D>) -> Gradient {
+pub(crate) fn in_space<const D: usize>(gradient: &SMatrix<f64, D, D>) -> Gradient {
     let at = |i, j| match i < D && j < D {
         true => gradient[(i, j)],
         false => 0.0,
@@ -97,38 +83,35 @@ pub(crate) fn magnitude<const D: usize>(gradient: &SMatrix<f64, D, D>) -> f64 {
     (2.0 * strain.contract(&strain)).sqrt()
 }
 
-impl Declares for StrainRate {
-    fn name(&self) -> String {
-        "strain rate".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here(fields::VELOCITY_GRADIENT)
-            .writes(fields::STRAIN_RATE)
-    }
+/// [`STRAIN_RATE`](fields::STRAIN_RATE) γ̇ = √(2 D:D) with the deviatoric D = ½(G + Gᵀ) − ⅓ tr(G) I, out of the plane
+/// included.
+///
+/// Source: Ghaïtanellis 2017, Eq. 4.6 and 4.88.
+pub(crate) fn strain_rates<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here(fields::VELOCITY_GRADIENT)
+        .writes(fields::STRAIN_RATE);
+    stage("strain rate", access, set_strain_rates)
 }
 
-impl<const D: usize> Stage<World<D>> for StrainRate {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        let mut rate = world.free.take(fields::STRAIN_RATE)?;
-        let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
-        let all = rate.par_iter_mut().zip(gradient).with_min_len(2048);
-        all.for_each(|(rate, g)| *rate = magnitude(g));
-        Ok(world.free.put(fields::STRAIN_RATE, rate)?)
-    }
+pub(crate) fn set_strain_rates<const D: usize>(world: &mut World<D>) -> Result<(), StepError> {
+    let mut rate = world.free.take(fields::STRAIN_RATE)?;
+    let gradient = world.free.get(fields::VELOCITY_GRADIENT)?;
+    let all = rate.par_iter_mut().zip(gradient).with_min_len(2048);
+    all.for_each(|(rate, g)| *rate = magnitude(g));
+    Ok(world.free.put(fields::STRAIN_RATE, rate)?)
 }
 
 /// [`STRAIN_RATE`](fields::STRAIN_RATE) along with the interactions, for terms that read it after them: the walk over
 /// the neighbours, their distances and the gradients of the kernel are there already.
 #[derive(Clone)]
-pub struct StrainRateTerm<const D: usize> {
+pub(crate) struct StrainRateTerm<const D: usize> {
     /// The formula of the gradient.
     pub formula: Arc<dyn VelocityGradient<D>>,
 }
 
-/// Columns of a gradient: those of [`StrainRateTerm`].
 #[pair_term(StrainRateTerm<D>, "strain rate")]
-pub struct BoundGradient<'a, const D: usize> {
+pub(crate) struct BoundGradient<'a, const D: usize> {
     #[value(&*self.formula)]
     formula: &'a dyn VelocityGradient<D>,
     #[both(fields::VELOCITY)]
@@ -142,11 +125,9 @@ pub struct BoundGradient<'a, const D: usize> {
 }
 
 impl<const D: usize> BoundGradient<'_, D> {
-    /// The gradient at a particle, from the sums over its free neighbours.
     #[inline(always)]
     fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
-        let own = &self.velocity[at.particle];
-        let gathered = Gathered::new(free, own, self.walls, at);
+        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
         gathered.gradient(self.formula, at.inverse_renormalisation)
     }
 }

@@ -3,7 +3,7 @@
 use sph_contribution::{Refusal, Setting};
 use sph_core::{parameters, suggestion};
 
-use crate::kind::KIND;
+use crate::closures::KIND;
 use crate::wall::WallLaw;
 
 /// The bed of another phase as a rough wall: within a spacing of it η + η_t = ρu*² z/u_t, so that the friction between the two
@@ -23,7 +23,6 @@ pub struct RoughBed {
 }
 
 impl RoughBed {
-    /// The law of the wall over it.
     pub(crate) fn law(&self) -> WallLaw {
         WallLaw {
             roughness: self.roughness,
@@ -31,7 +30,6 @@ impl RoughBed {
         }
     }
 
-    /// Refuses beds that are none.
     pub(crate) fn check<const D: usize>(
         &self,
         acts_on: &[String],
@@ -50,16 +48,13 @@ impl RoughBed {
             );
             return refused("bed.phase", why);
         }
-        let spacing = setting.world.spacing;
-        match self.roughness >= 0.0 && self.roughness <= spacing {
-            true => Ok(()),
-            false => refused(
-                "bed.roughness",
-                format!(
-                    "a roughness from 0 to the spacing of {spacing} m was expected, found {} m",
-                    self.roughness
-                ),
-            ),
+        let (roughness, spacing) = (self.roughness, setting.world.spacing);
+        if (0.0..=spacing).contains(&roughness) {
+            return Ok(());
         }
+        let why = format!(
+            "a roughness from 0 to the spacing of {spacing} m was expected, found {roughness} m"
+        );
+        refused("bed.roughness", why)
     }
 }

@@ -47,7 +47,6 @@ fn distance_of(shares: &[f64], radius: f64, share: f64) -> f64 {
     }
 }
 
-/// The bed as a particle sees it.
 struct BedView<const D: usize> {
     distance: f64,
     slip: Vect<D>,

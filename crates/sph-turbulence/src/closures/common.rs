@@ -4,13 +4,11 @@ use sph_contribution::{Offer, Refusal, Report, Setting};
 use sph_core::{Access, StepError, fields, stage, suggestion};
 use sph_neighbours::World;
 
-use super::phases::{BedEddies, acting, check, viscosities};
+use super::phases::{BedEddies, KIND, acting, check, viscosities};
 use crate::bed::{RoughBed, bed_shear};
 use crate::columns::BED;
 use crate::distance::wall_distance;
-use crate::kind::KIND;
 
-/// State behind the stage of a closure.
 #[derive(Default)]
 pub(crate) struct ClosureCommon<'a> {
     /// Name of the plugin.
@@ -32,10 +30,10 @@ pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
 }
 
 impl ClosureCommon<'_> {
-    /// Refuses phases that no closure is for.
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
-        check(self.name, self.phases, setting)?;
+        let name = self.name;
+        check(name, self.phases, setting)?;
         if let Some(bed) = self.bed {
             bed.check(self.phases, setting)?;
         }
@@ -43,9 +41,8 @@ impl ClosureCommon<'_> {
             let walls = &setting.world.walls;
             if walls.elements.centre.is_empty() {
                 let why = format!(
-                    "`{}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
-                     with `[walls.usaw]`",
-                    self.name
+                    "`{name}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
+                     with `[walls.usaw]`"
                 );
                 return refused("", why);
             }
@@ -61,9 +58,6 @@ impl ClosureCommon<'_> {
     /// Offers the stage of a closure, of a name in plans and the columns that it reads, which sets the eddy viscosities, Pa s:
     /// none in phases on which it does not act, neither in soils nor in fluids that are not named. Besides the stages of
     /// distances and of the bed, if it reads them; and a word at the end, if it has one.
-    ///
-    /// # Errors
-    /// The key of what no closure is for.
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,

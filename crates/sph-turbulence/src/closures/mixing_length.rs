@@ -6,9 +6,7 @@ use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::ClosureCommon;
-use super::length::Length;
-use crate::bed::RoughBed;
-use crate::columns::{FRICTION_VELOCITY, WALL_DISTANCE};
+use crate::{FRICTION_VELOCITY, RoughBed, WALL_DISTANCE};
 
 /// η_t = ρ L² √(2 D:D), with L = κz, at most `longest`, or L = κz√(1 − z/H) in an open channel of a `depth` H, and
 /// the true distance z from the nearest wall.
@@ -71,19 +69,15 @@ impl MixingLength {
         }
     }
 
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, rates) = world.free.all((fields::DENSITY, fields::STRAIN_RATE))?;
         let distance = world.free.get(WALL_DISTANCE)?;
-        let friction = match world.free.has(FRICTION_VELOCITY.name) {
-            true => world.free.get(FRICTION_VELOCITY)?,
-            false => &[],
-        };
+        let friction = world.free.get(FRICTION_VELOCITY).ok();
         let length = self.length();
         for (i, eddy) in eddies.iter_mut().enumerate() {
             // A particle on the wall has no length and no eddies.
             let z = distance[i].max(f64::MIN_POSITIVE);
-            let friction = friction.get(i).copied().unwrap_or(0.0);
+            let friction = friction.map_or(0.0, |u| u[i]);
             let rate = self.strain_rate(rates[i], z, friction, world.spacing);
             *eddy = density[i] * length.at(z).powi(2) * rate;
         }
@@ -106,6 +100,32 @@ impl<const D: usize> Contribution<D> for MixingLength {
         let own = self.clone();
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("mixing length", access), set, offer)
+    }
+}
+
+/// L = κz, at most `longest`; L = κz√(1 − z/H) where there is a depth. Source: Issa 2004, Eq. 6.14 and 6.19.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Length {
+    /// Von Kármán's κ.
+    pub karman: f64,
+    /// Depth H of an open channel, m.
+    pub depth: Option<f64>,
+    /// L is not larger, m.
+    pub longest: Option<f64>,
+}
+
+impl Length {
+    /// L at a distance, m.
+    pub fn at(&self, distance: f64) -> f64 {
+        let share = self.depth.map_or(1.0, |h| (1.0 - distance / h).max(0.0));
+        let length = self.karman * distance * share.sqrt();
+        length.min(self.longest.unwrap_or(f64::INFINITY))
+    }
+
+    /// The distance beyond which L is the same everywhere, m.
+    pub fn farthest(&self) -> f64 {
+        let of_longest = self.longest.map_or(f64::INFINITY, |l| l / self.karman);
+        self.depth.unwrap_or(of_longest)
     }
 }
 
@@ -137,5 +157,25 @@ mod tests {
         assert_eq!(closure.strain_rate(3.0, 0.005, 0.0, 0.01), 3.0);
         let found = closure.strain_rate(3.0, 0.005, 0.05, 0.01);
         assert!((found - 0.05 / (0.41 * 0.005)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn it_grows_from_the_wall_and_ends_at_the_surface_or_at_the_longest() {
+        let plain = Length {
+            karman: 0.4,
+            depth: None,
+            longest: Some(0.1),
+        };
+        assert!((plain.at(0.1) - 0.04).abs() < 1e-15);
+        assert_eq!(plain.at(5.0), 0.1);
+        assert!((plain.farthest() - 0.25).abs() < 1e-15);
+        let channel = Length {
+            depth: Some(2.0),
+            longest: None,
+            ..plain
+        };
+        assert!((channel.at(1.5) - 0.4 * 1.5 * 0.5).abs() < 1e-15);
+        assert_eq!([channel.at(2.0), channel.at(3.0)], [0.0; 2]);
+        assert_eq!(channel.farthest(), 2.0);
     }
 }

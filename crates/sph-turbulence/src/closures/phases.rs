@@ -5,10 +5,11 @@ use sph_core::{Access, StepError, fields, suggestion};
 use sph_neighbours::World;
 
 use crate::columns::BED;
-use crate::kind::KIND;
 use crate::wall::WallLaw;
 
-/// Refuses phases that a closure is not for.
+/// The kind of all closures.
+pub(crate) const KIND: &str = "eddy-viscosity";
+
 pub(crate) fn check<const D: usize>(
     closure: &str,
     named: &[String],
@@ -18,16 +19,13 @@ pub(crate) fn check<const D: usize>(
     let viscous = |k: usize| setting.viscosities[k].is_some_and(|nu| nu > 0.0);
     let all = setting.phases;
     if named.is_empty() && all.len() > 1 {
-        let fluids: Vec<_> = (0..all.len()).filter(|k| viscous(*k)).collect();
-        let fluids: Vec<_> = fluids.iter().map(|k| format!("\"{}\"", all[*k])).collect();
-        return refused(
-            "phases",
-            format!(
-                "this scene has {} phases: say on which of them `{closure}` acts, `phases = [{}]`",
-                all.len(),
-                fluids.join(", ")
-            ),
+        let fluids = (0..all.len()).filter(|k| viscous(*k));
+        let fluids: Vec<_> = fluids.map(|k| format!("\"{}\"", all[k])).collect();
+        let (count, fluids) = (all.len(), fluids.join(", "));
+        let why = format!(
+            "this scene has {count} phases: say on which of them `{closure}` acts, `phases = [{fluids}]`"
         );
+        return refused("phases", why);
     }
     for name in named {
         let Some(k) = all.iter().position(|phase| phase == name) else {
@@ -42,17 +40,15 @@ pub(crate) fn check<const D: usize>(
             return refused("phases", why);
         }
     }
-    match all.len() > 1 || viscous(0) {
-        true => Ok(()),
-        false => refused(
-            "",
-            format!(
-                "`{closure}` acts in a fluid with one viscosity, and phase `{}` has none: give it `rheology.newtonian` \
-                 with a viscosity",
-                all[0]
-            ),
-        ),
+    if all.len() > 1 || viscous(0) {
+        return Ok(());
     }
+    let name = &all[0];
+    let why = format!(
+        "`{closure}` acts in a fluid with one viscosity, and phase `{name}` has none: give it `rheology.newtonian` with a \
+         viscosity"
+    );
+    refused("", why)
 }
 
 /// Marks of phases on which it acts; none where there is but one.

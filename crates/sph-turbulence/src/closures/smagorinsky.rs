@@ -1,18 +1,36 @@
-//! Smagorinsky's closure of large-eddy simulations.
+//! Smagorinsky's closure of large-eddy simulations, and the width of their filter.
 
-use sph_contribution::{Contribution, Offer, OwnColumn, Refusal, Setting};
+use sph_contribution::{
+    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
+};
 use sph_core::{Access, Field, Scalar, StepError, fields, parameters, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::{ClosureCommon, rubs};
-use super::filter::FilterLength;
-use super::last_strain::StrainRecorder;
-use super::phases::viscosities;
+use super::phases::{KIND, viscosities};
 use super::wall_units::wall_units;
 use crate::bed::RoughBed;
 use crate::columns::{DAMPING_UNITS, LAST_STRAIN};
-use crate::kind::KIND;
+
+/// A length that particles have.
+#[parameters]
+pub enum FilterLength {
+    /// The smoothing length h.
+    SmoothingLength,
+    /// The particle spacing δr.
+    Spacing,
+}
+
+impl FilterLength {
+    /// Its length, m.
+    pub fn metres<const D: usize>(self, world: &World<D>) -> f64 {
+        match self {
+            FilterLength::SmoothingLength => world.kernel.smoothing_length(),
+            FilterLength::Spacing => world.spacing,
+        }
+    }
+}
 
 /// Damping of the eddies near walls.
 #[parameters]
@@ -88,7 +106,6 @@ impl Smagorinsky {
         -(-z_plus / DAMPING_LENGTH).exp_m1()
     }
 
-    /// The column that its eddies follow.
     fn strain_rate(&self) -> Field<Scalar> {
         match self.strain_of {
             StrainOf::ThisStep => fields::STRAIN_RATE,
@@ -96,12 +113,10 @@ impl Smagorinsky {
         }
     }
 
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
-        let rates = world.free.get(self.strain_rate())?;
-        let inputs = density.iter().zip(rates);
+        let inputs = density.iter().zip(world.free.get(self.strain_rate())?);
         for (eddy, (rho, rate)) in eddies.iter_mut().zip(inputs) {
             *eddy = rho * self.kinematic(width, *rate);
         }
@@ -143,15 +158,33 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
             return Ok(());
         }
         if !rubs(setting) {
-            return Err(Refusal::at_key(
-                KIND,
-                "damping",
-                "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
-                 `[walls.usaw]` and a wall with `condition = \"no-slip\"`",
-            ));
+            let why = "van Driest's damping is of walls of segments or triangles that rub, and there are none: it needs \
+                       `[walls.usaw]` and a wall with `condition = \"no-slip\"`";
+            return Err(Refusal::at_key(KIND, "damping", why));
         }
         offer.stage(wall_units(viscosities(&self.phases, setting)));
         Ok(())
+    }
+}
+
+/// Keeps the strain rate of a step, which came along with its interactions, for the closure in the next one.
+struct StrainRecorder;
+
+impl<const D: usize> StepHook<D> for StrainRecorder {
+    fn name(&self) -> String {
+        "strain rate of the step".into()
+    }
+    fn access(&self) -> Access {
+        Access::none().here(fields::STRAIN_RATE).writes(LAST_STRAIN)
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        &[StepPhase::AfterKick]
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        let world = &mut *moment.world;
+        let mut kept = world.free.take(LAST_STRAIN)?;
+        kept.copy_from_slice(world.free.get(fields::STRAIN_RATE)?);
+        Ok(world.free.put(LAST_STRAIN, kept)?)
     }
 }
 

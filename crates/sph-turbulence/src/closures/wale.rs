@@ -8,9 +8,7 @@ use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
 use super::common::ClosureCommon;
-use super::filter::FilterLength;
-use crate::bed::RoughBed;
-use crate::in_space::in_space;
+use crate::{FilterLength, RoughBed};
 
 /// η_t = ρ (C_w Δ)² (S^d:S^d)^{3/2} / ((S:S)^{5/2} + (S^d:S^d)^{5/4}), with S the strain rate,
 /// S^d = ½(g² + g²ᵀ) − ⅓ tr(g²) 1 and the velocity gradient g.
@@ -61,7 +59,6 @@ impl Wale {
         }
     }
 
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let width = self.filter * self.filter_length.metres(world);
         let density = world.free.get(fields::DENSITY)?;
@@ -87,6 +84,11 @@ impl<const D: usize> Contribution<D> for Wale {
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("wale", access), set, offer)
     }
+}
+
+/// A gradient with zeros in the direction that a plane has not.
+pub(crate) fn in_space<const D: usize>(gradient: &SMatrix<f64, D, D>) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| gradient.get((i, j)).copied().unwrap_or(0.0))
 }
 
 #[cfg(test)]

@@ -35,8 +35,7 @@ pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl 
             let nu = viscosity.at(i);
             let found = tree.nearest(x, within).filter(|_| nu.is_some());
             let friction = |(d, s): (f64, u32)| Some(d * friction[s as usize]?);
-            let found = found.and_then(friction);
-            let plus = found.zip(nu).map(|(d, nu)| d / nu);
+            let plus = found.and_then(friction).zip(nu).map(|(d, nu)| d / nu);
             *z = plus.unwrap_or(f64::INFINITY);
         });
         Ok(world.free.put(DAMPING_UNITS, units)?)

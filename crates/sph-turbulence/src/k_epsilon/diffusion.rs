@@ -26,7 +26,6 @@ pub(crate) struct Diffusion<const N: usize> {
     pub wall_flux: Option<f64>,
 }
 
-/// [`Diffusion`] with its columns.
 pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     value: [&'a [f64]; N],
     viscosity: &'a [f64],
@@ -90,7 +89,6 @@ impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
 }
 
 impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
-    /// Values and diffusivities.
     type Own<L: Lane> = [[L; N]; 2];
     type Sum<L: Lane> = [L; N];
 
@@ -154,8 +152,7 @@ impl<const D: usize> Limiter<D> for DiffusionLimit {
         let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
-        let both = acting.map(|((eta, rho), _)| eta / rho);
-        let largest = both.fold(0.0, f64::max);
+        let largest = (acting.map(|((eta, rho), _)| eta / rho)).fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
         Ok(StepLimit::new("turbulence", self.0 * h * h / largest))
     }

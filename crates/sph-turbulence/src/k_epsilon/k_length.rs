@@ -10,15 +10,12 @@ use sph_neighbours::World;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
 use super::model::KEpsilonModel;
-use super::near::{beside_bed, refuse_negative};
+use super::work::{beside_bed, refuse_negative};
 use crate::bed::{RoughBed, surface_share};
-use crate::closures::common::{ClosureCommon, rubs};
-use crate::closures::length::Length;
-use crate::closures::phases::{Kinematic, acts_on, viscosities};
+use crate::closures::{ClosureCommon, KIND, Kinematic, Length, acts_on, rubs, viscosities};
 use crate::columns::{
     BED, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, WALL_DISTANCE,
 };
-use crate::kind::KIND;
 
 /// η_t = ρ C_μ^¼ √k L, with dk/dt = div((ν + ν_t/σ_k) grad k) + P − ε, ε = C_μ^¾ k^{3/2}/L and
 /// P = min(√C_μ, C_μ k S/ε) k S.
@@ -94,7 +91,6 @@ fn after(energy: f64, length: f64, [strain_rate, share]: [f64; 2], dt: f64) -> f
 }
 
 impl KLength {
-    /// Sets the eddy viscosities, Pa s.
     fn set<const D: usize>(&self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let length = self.length();
         let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
@@ -126,12 +122,9 @@ impl<const D: usize> Contribution<D> for KLength {
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("k-length", access), set, offer)?;
         if rubs(setting) && setting.phases.len() == 1 {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` there and name \
-                 the walls in `[wall-function.log-law]`",
-            ));
+            let why = "k has no value at walls that rub without a wall function: write `condition = \"free-slip\"` \
+                       there and name the walls in `[wall-function.log-law]`";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         offer.transported.push(Evolved {
             value: TURBULENT_ENERGY,
@@ -154,7 +147,6 @@ impl<const D: usize> Contribution<D> for KLength {
     }
 }
 
-/// Production and dissipation after diffusion, and wall values.
 struct Sources {
     closure: KLength,
     /// ν of every phase, m²/s; none of those that it does not act on.
@@ -204,8 +196,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 }
             }
         });
-        if world.free.has(FRICTION_VELOCITY.name) {
-            let friction = world.free.get(FRICTION_VELOCITY)?;
+        if let Ok(friction) = world.free.get(FRICTION_VELOCITY) {
             for (k, (u, z)) in energy.iter_mut().zip(friction.iter().zip(distance)) {
                 if *u > 0.0 && *z < spacing {
                     *k = u * u / KEpsilonModel::C_MU.sqrt();

@@ -2,25 +2,20 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
-use sph_core::{Access, Evolved, StepError, fields, plugin};
+use sph_core::{Access, Evolved, StepError, fields, parameters, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 use sph_soil::stress::StressDivergence;
 
 use super::diffusion::{Diffusion, DiffusionLimit};
-use super::earsm::AlgebraicStress;
-use super::extra_stress::extra_stress;
-use super::model::{KEpsilonModel, Variant};
-use super::realisable::RealisableModel;
-use super::start::ChannelStart;
-use super::work::{AtWall, Sources};
-use crate::bed::{RoughBed, surface_share};
-use crate::closures::common::{ClosureCommon, rubs};
-use crate::closures::phases::{acts_on, viscosities};
-use crate::columns::{
-    DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE,
+use super::earsm::extra_stress;
+use super::work::Sources;
+use crate::bed::surface_share;
+use crate::closures::{ClosureCommon, KIND, acts_on, rubs, viscosities};
+use crate::{
+    AlgebraicStress, AtWall, DISSIPATION, DISSIPATION_RATE, EDDY_STRESS, KEpsilonModel,
+    RealisableModel, RoughBed, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE, Variant,
 };
-use crate::kind::KIND;
 
 /// η_t = ρ C_μ k²/ε, with
 ///
@@ -91,7 +86,6 @@ impl KEpsilon {
 }
 
 impl Variant {
-    /// Sets the eddy viscosities of k and ε, Pa s.
     fn set<const D: usize>(self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let dissipation = world.free.get(DISSIPATION)?;
@@ -142,19 +136,14 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         let set = move |world: &World<D>, eddies: &mut [f64]| variant.set(world, eddies);
         common.offer_to(setting, ("k-epsilon", access), set, offer)?;
         if self.start(0.0).is_none() {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or `channel` alone",
-            ));
+            let why = "k and ε at the start are missing: either both `energy` and `dissipation` were expected, or \
+                       `channel` alone";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         if rubs(setting) && setting.phases.len() == 1 {
-            return Err(Refusal::at_key(
-                KIND,
-                "",
-                "k and ε have no values at walls that rub without a wall function: write `condition = \"free-slip\"` there \
-                 and name the walls in `[wall-function.log-law]`",
-            ));
+            let why = "k and ε have no values at walls that rub without a wall function: write `condition = \
+                       \"free-slip\"` there and name the walls in `[wall-function.log-law]`";
+            return Err(Refusal::at_key(KIND, "", why));
         }
         let both = [
             (TURBULENT_ENERGY, TURBULENT_ENERGY_RATE),
@@ -189,5 +178,56 @@ impl<const D: usize> Contribution<D> for KEpsilon {
         let remedy = "look at k and ε at the start: the eddy viscosity is 0.09 k²/ε";
         offer.remedy = Some(remedy.into());
         Ok(())
+    }
+}
+
+/// k = u*²/√C_μ (1 − z/H) and ε = u*³/(κz) (1 − z/H): where production balances dissipation in a wide open channel.
+///
+/// Source: Issa 2004, Eq. 5.33 with 6.24.
+#[parameters]
+pub struct ChannelStart {
+    /// u*.
+    #[parameter(unit: "m/s", above: 0.0)]
+    pub friction_velocity: f64,
+    /// Depth H.
+    #[parameter(unit: "m", above: 0.0)]
+    pub depth: f64,
+    /// Height of the bed.
+    #[parameter(default, unit: "m")]
+    pub bottom: f64,
+}
+
+/// Nearer to bed and surface than this share of the depth, k and ε are those there, so that both are positive.
+const LEAST_SHARE: f64 = 1e-3;
+
+impl ChannelStart {
+    /// k and ε at a height.
+    pub fn at(&self, karman: f64, height: f64) -> [f64; 2] {
+        let share = (height - self.bottom) / self.depth;
+        let share = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+        let at_wall = KEpsilonModel::at_wall(self.friction_velocity, share * self.depth, karman);
+        at_wall.map(|value| value * (1.0 - share))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Page §3.7: ν_t = κu*z(1 − z/H).
+    #[test]
+    fn its_eddies_are_those_of_the_channel() {
+        let start = ChannelStart {
+            friction_velocity: 0.05,
+            depth: 0.4,
+            bottom: -1.0,
+        };
+        for z in [0.01, 0.2, 0.39] {
+            let [k, e] = start.at(0.41, z - 1.0);
+            let exact = 0.41 * 0.05 * z * (1.0 - z / 0.4);
+            assert!((KEpsilonModel::eddy_viscosity(k, e) / exact - 1.0).abs() < 1e-12);
+        }
+        let [k, e] = start.at(0.41, 5.0);
+        assert!(k > 0.0 && e > 0.0);
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix};
 
-use crate::in_space::in_space;
+use crate::closures::in_space;
 
 /// C_μ that falls with strain and rotation, so that normal stresses stay positive, and an equation of ε without P:
 ///

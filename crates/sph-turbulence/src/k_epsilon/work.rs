@@ -6,9 +6,8 @@ use sph_core::{Access, StepError, fields, parameters};
 use sph_neighbours::World;
 
 use super::model::{KEpsilonModel, Variant};
-use super::near::{beside_bed, refuse_negative, rubbed};
 use super::realisable::RealisableModel;
-use crate::closures::phases::Kinematic;
+use crate::closures::Kinematic;
 use crate::columns::{
     BED, DISSIPATION, FRICTION_VELOCITY, SURFACE_SHARE, TURBULENT_ENERGY, WALL_UNITS,
 };
@@ -41,7 +40,6 @@ pub(crate) struct Sources {
     pub surface_depth: Option<f64>,
 }
 
-/// Strain rates of a particle.
 #[derive(Clone, Copy)]
 struct StrainRates {
     rate: f64,
@@ -135,16 +133,12 @@ impl<const D: usize> StepHook<D> for Sources {
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
-        let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
-        let density = world.free.get(fields::DENSITY)?;
+        let (eddies, density) = world.free.all((fields::EDDY_VISCOSITY, fields::DENSITY))?;
         let share = match self.sees_surfaces() {
             true => world.free.get(SURFACE_SHARE)?,
             false => &[],
         };
-        let walls = match world.free.has(FRICTION_VELOCITY.name) {
-            true => Some(world.free.all((FRICTION_VELOCITY, WALL_UNITS))?),
-            false => None,
-        };
+        let walls = world.free.all((FRICTION_VELOCITY, WALL_UNITS)).ok();
         let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
             let of_wall = walls.and_then(|(friction, units)| {
@@ -170,9 +164,55 @@ impl<const D: usize> StepHook<D> for Sources {
         Ok(world.free.put(DISSIPATION, dissipation)?)
     }
     fn report(&self, world: &World<D>) -> Report {
-        Report {
-            advice: rubbed(world, &self.viscosities),
-            ..Report::default()
-        }
+        rubbed(world, &self.viscosities).map_or_else(Report::default, Report::advice)
     }
+}
+
+/// u*, m/s, and the distance, m, of a particle next to a bed that is a rough wall, from the columns of such a bed.
+pub(crate) fn beside_bed(columns: Option<(&[f64], &[f64])>, i: usize) -> Option<[f64; 2]> {
+    let (friction, distance) = columns?;
+    (friction[i] > 0.0).then(|| [friction[i], distance[i]])
+}
+
+/// Nothing is cut off: a step whose diffusion takes more than there is fails, and is taken again in shorter ones.
+pub(crate) fn refuse_negative<const D: usize>(
+    world: &World<D>,
+    quantity: &'static str,
+    values: &[f64],
+    acts: impl Fn(usize) -> bool,
+) -> Result<(), StepError> {
+    let bad = |i: usize, v: f64| acts(i) && !(v > 0.0 && v.is_finite());
+    let Some(i) = values.iter().enumerate().position(|(i, v)| bad(i, *v)) else {
+        return Ok(());
+    };
+    let position = world.free.get(fields::POSITION)?[i];
+    Err(StepError::Bad {
+        quantity,
+        particle: world.free.get(fields::IDENTITY)?[i],
+        position: position.iter().copied().collect(),
+        value: values[i],
+        reason: "where a positive number was expected: the step is too long for its diffusion"
+            .into(),
+    })
+}
+
+/// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.
+fn rubbed<const D: usize>(world: &World<D>, viscosities: &[Option<f64>]) -> Option<String> {
+    let viscosity = Kinematic::from_world(viscosities, world).ok()?;
+    let walls = &world.walls;
+    let elements = &walls.elements;
+    let rubs = |s: usize| {
+        elements.friction_factor[s] > 0.0 && elements.wall_function.get(s) != Some(&true)
+    };
+    let particles = walls.contacts.particles.iter().map(|p| *p as usize);
+    let mut turbulent = particles.filter(|i| viscosity.at(*i).is_some());
+    let met = turbulent.find_map(|i| {
+        let mut contacts = walls.contacts.of_particle(i).iter();
+        contacts.find(|c| rubs(c.element as usize))
+    })?;
+    let name = &walls.names[elements.wall[met.element as usize] as usize];
+    Some(format!(
+        "k has no value at the wall `{name}`, which rubs the turbulent fluid without a wall function: its shear is that of \
+         the eddies of the first row; name it in `[wall-function.log-law]`"
+    ))
 }

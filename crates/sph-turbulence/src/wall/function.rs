@@ -1,12 +1,13 @@
 //! Walls whose boundary layer is finer than the particles.
 
+use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Report, Setting, contribution_kind};
-use sph_core::{Access, StepError, Work, fields, plugin, suggestion};
+use sph_core::{Access, Stage, StepError, Work, fields, plugin, stage, suggestion};
 use sph_neighbours::World;
 
-use super::law::WallLaw;
-use super::stage::wall_shear;
-use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
+use super::nearest;
+use crate::closures::Kinematic;
+use crate::{FRICTION_VELOCITY, WALL_UNITS, WallLaw};
 
 contribution_kind!(
     /// A wall function that a scene may name.
@@ -79,11 +80,9 @@ impl LogLaw {
         }
         let elements = &walls.elements;
         if elements.centre.is_empty() || walls.points.in_density() {
-            return Err(
-                "it acts on semi-analytical walls without vertices, whose points would rub as well: write `[walls.usaw]` \
-                 with `vertices = false`"
-                    .into(),
-            );
+            let why = "it acts on semi-analytical walls without vertices, whose points would rub as well: write \
+                       `[walls.usaw]` with `vertices = false`";
+            return Err(why.into());
         }
         for (s, wall) in elements.wall.iter().enumerate() {
             let name = &walls.names[*wall as usize];
@@ -103,26 +102,21 @@ impl LogLaw {
 impl<const D: usize> Contribution<D> for LogLaw {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::at_key(KIND, key, why);
-        self.law().check().map_err(|e| refused("", e.to_string()))?;
+        self.law().check().map_err(|why| refused("", why))?;
         self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;
-        if self.roughness > setting.world.spacing {
-            return Err(refused(
-                "roughness",
-                format!(
-                    "the roughness of {} m is larger than the spacing of {} m, so that particles would lie within it: at \
-                     most the spacing was expected; draw such a wall",
-                    self.roughness, setting.world.spacing
-                ),
-            ));
+        let (roughness, spacing) = (self.roughness, setting.world.spacing);
+        if roughness > spacing {
+            let why = format!(
+                "the roughness of {roughness} m is larger than the spacing of {spacing} m, so that particles would lie \
+                 within it: at most the spacing was expected; draw such a wall"
+            );
+            return Err(refused("roughness", why));
         }
         if !setting.viscosities.iter().any(is_viscous) {
-            return Err(refused(
-                "",
-                "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a phase \
-                 `rheology.newtonian` with a viscosity"
-                    .into(),
-            ));
+            let why = "no phase of this scene is a viscous fluid with one viscosity, which z⁺ = z u*/ν needs: give a \
+                       phase `rheology.newtonian` with a viscosity";
+            return Err(refused("", why.into()));
         }
         offer.goals.push(fields::WALL_FRICTION.any());
         let viscous = |nu: &Option<f64>| nu.filter(|_| is_viscous(nu));
@@ -134,7 +128,6 @@ impl<const D: usize> Contribution<D> for LogLaw {
     }
 }
 
-/// True if a phase has a viscosity that the law can take.
 fn is_viscous(viscosity: &Option<f64>) -> bool {
     viscosity.is_some_and(|nu| nu > 0.0)
 }
@@ -144,17 +137,67 @@ const VALID: [f64; 2] = [1.0, 1000.0];
 
 /// Advice on the spacing where z⁺ of the particles at the walls is out of the range.
 fn range<const D: usize>(world: &World<D>) -> Result<Report, StepError> {
-    let units = world.free.get(WALL_UNITS)?;
-    let friction = world.free.get(FRICTION_VELOCITY)?;
+    let (units, friction) = world.free.all((WALL_UNITS, FRICTION_VELOCITY))?;
     // z⁺ of the particles within a spacing of the wall: those that the shear acts on most.
     let near = (0..units.len()).filter(|i| friction[*i] > 0.0);
     let least = near.map(|i| units[i]).fold(f64::INFINITY, f64::min);
-    if !least.is_finite() || (VALID[0]..=VALID[1]).contains(&least) {
+    let [low, high] = VALID;
+    if !least.is_finite() || (low..=high).contains(&least) {
         return Ok(Report::default());
     }
     Ok(Report::advice(format!(
         "the particles nearest to the walls with a wall function are at z+ = {least:.3}: the law of the wall is meant for \
-         {} to {}, so change the spacing",
-        VALID[0], VALID[1]
+         {low} to {high}, so change the spacing"
     )))
+}
+
+/// [`FRICTION_VELOCITY`] u*, [`WALL_UNITS`] z⁺ and [`WALL_FRICTION`](fields::WALL_FRICTION) ρu*²/u_t by the law, from the
+/// velocity u_t along the wall, relative to it, at the particle's true distance z.
+///
+/// `named` are the walls, `viscosities` ν of every phase, m²/s; none of those that the law is not for.
+fn wall_shear<const D: usize>(
+    law: WallLaw,
+    named: Vec<String>,
+    viscosities: Vec<Option<f64>>,
+) -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::VELOCITY, fields::DENSITY, fields::RENORMALISATION))
+        .writes((FRICTION_VELOCITY, WALL_UNITS, fields::WALL_FRICTION));
+    let access = Kinematic::access(&viscosities, access);
+    stage("wall function", access, move |world: &mut World<D>| {
+        if world.walls.elements.wall_function.len() != world.walls.elements.wall.len() {
+            let names = &world.walls.names;
+            let is_named = |wall: &u32| named.contains(&names[*wall as usize]);
+            let marks = world.walls.elements.wall.iter().map(is_named);
+            world.walls.elements.wall_function = marks.collect();
+        }
+        let mut friction_velocity = world.free.take(FRICTION_VELOCITY)?;
+        let mut wall_units = world.free.take(WALL_UNITS)?;
+        let mut friction = world.free.take(fields::WALL_FRICTION)?;
+        let (velocity, density) = world.free.all((fields::VELOCITY, fields::DENSITY))?;
+        let viscosity = Kinematic::from_world(&viscosities, world)?;
+        let (walls, spacing) = (&world.walls, world.spacing);
+        let at = |i: usize| -> Result<[f64; 3], StepError> {
+            let none = [0.0, f64::INFINITY, 0.0];
+            let counts = |s: usize| walls.elements.wall_function[s];
+            let seen = nearest(walls, i, &velocity[i], spacing, counts);
+            let (Some(nu), Some(seen)) = (viscosity.at(i), seen) else {
+                return Ok(none);
+            };
+            let found = law.friction_velocity(seen.speed, seen.distance, nu);
+            let found = found.map_err(|error| StepError::stage("wall function", error))?;
+            // At rest the wall is one of the viscous sublayer: τ_w = η u/z.
+            let friction = match seen.speed > 0.0 {
+                true => density[i] * found * found / seen.speed,
+                false => density[i] * nu / seen.distance,
+            };
+            Ok([found, seen.distance * found / nu, friction])
+        };
+        let columns = friction_velocity.par_iter_mut().zip(&mut wall_units);
+        let each = columns.zip(&mut friction).enumerate().with_min_len(512);
+        each.try_for_each(|(i, ((u, z), f))| at(i).map(|found| [*u, *z, *f] = found))?;
+        world.free.put(FRICTION_VELOCITY, friction_velocity)?;
+        world.free.put(WALL_UNITS, wall_units)?;
+        Ok(world.free.put(fields::WALL_FRICTION, friction)?)
+    })
 }

@@ -59,17 +59,10 @@ mod tests {
     /// Page §4.5 and §4.7: 1.4677 and 0.8749 m/s at the surface of the smooth and the rough channel.
     #[test]
     fn surfaces_have_the_speeds_of_the_page() {
-        let law = WallLaw::default();
         let at = |roughness: f64, height: f64| {
-            let flow = LogLawFlow {
-                friction_velocity: 0.05,
-                kinematic_viscosity: 1e-6,
-                roughness,
-                bottom: 0.1,
-                karman: law.karman,
-                smooth_constant: law.smooth,
-                rough_constant: law.rough,
-            };
+            let table = "friction_velocity = 0.05\nkinematic_viscosity = 1e-6\nbottom = 0.1";
+            let table = format!("{table}\nroughness = {roughness}");
+            let flow: LogLawFlow = toml::from_str(&table).expect("a flow");
             let place = Vect::from([3.0, 0.1 + height]);
             Solution::<2>::velocity(&flow, &place, 0.0).expect("a velocity")
         };

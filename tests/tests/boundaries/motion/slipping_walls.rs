@@ -48,7 +48,10 @@ fn a_smooth_floor_counts_in_the_strain_across_it_and_not_along_it() {
     for (u, x) in velocity.iter_mut().zip(&positions) {
         *u = Vect::from([3.0 * x[1], -2.0 * x[1]]);
     }
-    let mut stage = GradientStage::<2>::everywhere(Arc::new(Renormalised::default()));
+    let mut stage = GradientStage::<2> {
+        formula: Arc::new(Renormalised::default()),
+        phases: None,
+    };
     stage.run(world).unwrap();
     let gradients = world.free.get(fields::VELOCITY_GRADIENT).unwrap();
     let mut most: f64 = 0.0;

@@ -97,9 +97,8 @@ fn errors(world: &World<2>, term: &dyn Fn() -> Box<dyn Interaction<2>>) -> [f64;
 fn nested(ratio: f64) -> [f64; 2] {
     let mut world = vortices(ratio);
     let formula = std::sync::Arc::new(SymmetricDifference {});
-    GradientStage::<2>::everywhere(formula)
-        .run(&mut world)
-        .unwrap();
+    let phases = None;
+    GradientStage { formula, phases }.run(&mut world).unwrap();
     let gradients = world.free.get(fields::VELOCITY_GRADIENT).unwrap();
     let stress = gradients.iter().map(|g| {
         let sum = g + g.transpose();

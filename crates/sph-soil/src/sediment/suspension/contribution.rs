@@ -8,11 +8,10 @@ use sph_core::{Access, StepError, StepLimit, Vect, fields, suggestion};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, WithTerm, World};
 
 use super::exchange::BedExchange;
-use super::plugins::{PickUp, SuspensionEntry};
-use super::settling::Suspended;
 use super::transport::Transport;
+use crate::pores::PhaseMask;
 use crate::sediment::moving_bed::carrier;
-use crate::sediment::{BedLoadEntry, Grains, MovingBed};
+use crate::sediment::{BedLoadEntry, Grains, MovingBed, PickUp, Suspended, SuspensionEntry};
 
 #[cfg(not(test))]
 contributes!("suspension", SuspensionOfScene);
@@ -34,9 +33,7 @@ const REFERENCE_GRAINS: f64 = 2.0;
 struct SuspensionOfScene<const D: usize> {
     law: Option<Box<dyn PickUp>>,
     suspended: Suspended,
-    /// The bed of the law of bed load, if the scene names one.
     bed: Option<MovingBed>,
-    /// True if the scene names a closure for eddies.
     has_eddies: bool,
 }
 
@@ -152,7 +149,7 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
             settling,
             diffusivity: self.suspended.diffusivity,
             schmidt: self.has_eddies.then_some(self.suspended.schmidt_number),
-            phase: (setting.phases.len() > 1).then_some(water as u32),
+            phase: PhaseMask((setting.phases.len() > 1).then_some(water as u32)),
             density,
         };
         let reference = self.suspended.reference_height;
@@ -178,7 +175,6 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
 /// (s − 1) C g, the weight of the grains under water; the field is s − 1.
 struct SubmergedWeight(f64);
 
-/// The weight with its columns.
 struct BoundWeight<'a, const D: usize> {
     concentration: &'a [f64],
     /// (s − 1) g, m/s².
@@ -222,7 +218,6 @@ impl<const D: usize> Limiter<D> for TransportLimit {
     }
 }
 
-/// Moves the grains that are in suspension.
 struct Suspension {
     transport: Transport,
     exchange: BedExchange,

@@ -4,15 +4,12 @@ use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::plugins::PickUp;
-use super::settling::HinderedSettling;
-use crate::sediment::Grains;
 use crate::sediment::bed_shear::WET;
+use crate::sediment::{Grains, HinderedSettling, PickUp};
 
 /// κ of the law of the wall.
 const KARMAN: f64 = 0.41;
 
-/// Exchange of grains between a bed and the water over it.
 pub(super) struct BedExchange {
     pub law: Box<dyn PickUp>,
     pub grains: Grains,
@@ -107,10 +104,9 @@ impl BedExchange {
         let volume = world.free.get(fields::VOLUME)?;
         let (walls, owned) = (&world.walls, world.owned());
         let elements = &walls.elements;
-        let places = 0..bed.grid.len();
-        let rates: Vec<[f64; 2]> = places.map(|place| self.rate(bed, place)).collect();
-        // Each with the part of the bed, seen from above, that is the particle's, and its height over it.
-        let mut parts: Vec<(Pass, f64, f64)> = Vec::new();
+        let rates: Vec<[f64; 2]> = (0..bed.grid.len()).map(|k| self.rate(bed, k)).collect();
+        // Particles and places, with the part of the bed, seen from above, that is the particle's, and its height over it.
+        let mut parts: Vec<(usize, usize, f64, f64)> = Vec::new();
         for &particle in &walls.contacts.particles {
             let i = particle as usize;
             if !owned.has(i) {
@@ -124,28 +120,26 @@ impl BedExchange {
                 let part = volume[i] * contact.gradient.norm();
                 for (place, share) in bed.grid.around(horizontal(&elements.centre[s].into())) {
                     if share > 0.0 && !bed.covered[place] {
-                        let pass = Pass {
-                            particle: i,
-                            place,
-                            lifted: 0.0,
-                            settled: 0.0,
-                        };
-                        parts.push((pass, part * share, contact.distance));
+                        parts.push((i, place, part * share, contact.distance));
                     }
                 }
             }
         }
-        let weights = parts.iter().map(|(pass, part, _)| (pass.place, *part));
-        let weights = world.sums_by_place(&weights.collect::<Vec<_>>(), bed.grid.len())?;
-        let filled = parts.into_iter().map(|(pass, part, distance)| {
-            let area = bed.grid.area(pass.place);
-            let own = dt * area * part / weights[pass.place].max(WET * 0.5 * area);
-            let [rate, rouse] = rates[pass.place];
+        let weights: Vec<_> = parts
+            .iter()
+            .map(|(_, place, part, _)| (*place, *part))
+            .collect();
+        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let filled = parts.into_iter().map(|(particle, place, part, distance)| {
+            let area = bed.grid.area(place);
+            let own = dt * area * part / weights[place].max(WET * 0.5 * area);
+            let [rate, rouse] = rates[place];
             let arriving = (self.height / distance.max(self.height)).powf(rouse);
             Pass {
+                particle,
+                place,
                 lifted: own * rate * arriving,
-                settled: own * self.settling.demand(concentration[pass.particle].max(0.0)),
-                ..pass
+                settled: own * self.settling.demand(concentration[particle].max(0.0)),
             }
         });
         Ok(filled.collect())
@@ -155,10 +149,8 @@ impl BedExchange {
     fn rate(&self, bed: &Bed, place: usize) -> [f64; 2] {
         let [x, y] = bed.shear[place];
         let friction_velocity = x.hypot(y).sqrt();
-        let (excess, speed) = (
-            bed.shields(place) - bed.critical[place],
-            self.settling.speed,
-        );
+        let speed = self.settling.speed;
+        let excess = bed.shields(place) - bed.critical[place];
         let rate = self.law.rate(excess, self.critical, &self.grains, speed);
         match rate > 0.0 {
             true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],

@@ -2,8 +2,7 @@
 
 use sph_core::{Work, contract, plugin};
 
-use super::settling::Suspended;
-use crate::sediment::Grains;
+use crate::sediment::{Grains, Suspended};
 
 /// A law of suspension: the rate at which grains leave a bed for the water over it.
 pub trait PickUp: Send {

@@ -4,6 +4,7 @@ use sph_core::{Access, StepError, fields};
 use sph_neighbours::{Around, Neighbourhood, Values, World, walk};
 
 use super::settling::HinderedSettling;
+use crate::pores::PhaseMask;
 
 /// Volume of grains that passes down from the upper of two particles per time, over their coupling 2 V_aV_b |F_ab|, m²/s·1:
 ///
@@ -52,7 +53,6 @@ impl Carried {
     }
 }
 
-/// Settling and mixing of grains in a fluid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transport {
     pub settling: HinderedSettling,
@@ -60,8 +60,8 @@ pub(super) struct Transport {
     pub diffusivity: f64,
     /// Viscosity of the eddies over the diffusivity of the grains; none without eddies.
     pub schmidt: Option<f64>,
-    /// Number of the phase that carries grains, where there are several.
-    pub phase: Option<u32>,
+    /// The phase that carries grains.
+    pub phase: PhaseMask,
     /// Reference density of the fluid, kg/m³.
     pub density: f64,
 }
@@ -70,20 +70,14 @@ impl Transport {
     /// The columns that a step of grains reads and writes.
     pub fn access(&self) -> Access {
         let access = Access::none()
-            .both(fields::POSITION)
-            .both(fields::CONCENTRATION)
-            .both(fields::VOLUME)
+            .both((fields::POSITION, fields::CONCENTRATION, fields::VOLUME))
             .here(fields::MASS)
             .where_there(fields::RENORMALISATION)
             .remembers(fields::CONCENTRATION);
-        let access = match self.schmidt {
-            Some(_) => access.both(fields::EDDY_VISCOSITY).both(fields::DENSITY),
+        self.phase.access(match self.schmidt {
+            Some(_) => access.both((fields::EDDY_VISCOSITY, fields::DENSITY)),
             None => access,
-        };
-        match self.phase {
-            Some(_) => access.both(fields::PHASE),
-            None => access,
-        }
+        })
     }
 
     /// D of a particle, m²/s.
@@ -100,15 +94,10 @@ impl Transport {
 
     /// Concentrations after a step of `dt` seconds: C_a − Δt/V⁰_a Σ_b Φ_ab with V⁰ = m/ρ₀ and Φ_ab = −Φ_ba.
     pub fn step<const D: usize>(&self, world: &World<D>, dt: f64) -> Result<Vec<f64>, StepError> {
-        let concentration = world.free.get(fields::CONCENTRATION)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (concentration, volume) = world.free.all((fields::CONCENTRATION, fields::VOLUME))?;
         let mass = world.free.get(fields::MASS)?;
         let mixing = self.mixing(world)?;
-        let phase = match self.phase {
-            Some(own) => Some((own, world.free.get(fields::PHASE)?)),
-            None => None,
-        };
-        let carries = |i: usize| phase.is_none_or(|(own, phase)| phase[i] == own);
+        let carries = self.phase.test(world)?;
         let inverse = world.free.get(fields::RENORMALISATION).ok();
         let inverse = |i: usize| inverse.map_or(1.0, |gamma| 1.0 / gamma[i]);
         let carried = |c: &f64| Carried::new(&self.settling, *c);

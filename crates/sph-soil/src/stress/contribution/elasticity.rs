@@ -8,12 +8,12 @@ use sph_neighbours::{Interaction, World};
 use sph_rheology::Rheology;
 
 use super::Materials;
+use crate::stress::adjoint::{AdjointDivergence, stress_correction};
+use crate::stress::law_stages::{carried_stress, implicit_elastic_stress, yield_shares};
 use crate::stress::{
-    AdjointDivergence, Blend, Blended, CarriedStress, ElasticForce, ElasticMotion, ElasticSubSteps,
-    HourglassDamping, ImplicitElasticStress, StressCorrection, Yielded,
+    Blend, Blended, ElasticForce, ElasticMotion, ElasticSubSteps, HourglassDamping,
 };
 
-/// Remembered stresses of the laws of a scene, and the force that they make.
 struct Elasticity<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]
@@ -53,7 +53,6 @@ impl<const D: usize> Elasticity<D> {
         strength.collect()
     }
 
-    /// The step that elastic waves allow.
     fn wave(&self, setting: &Setting<'_, D>) -> Option<ElasticWaveLimit> {
         let stiffness = self.0.force.as_ref()?.stiffness();
         let both = setting.laws.iter().zip(self.0.laws.iter());
@@ -103,12 +102,12 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         };
         let law_inputs = self.0.law_inputs();
         match self.0.ahead() {
-            true => offer.stage(ImplicitElasticStress(law_inputs.clone())),
-            false => offer.stage(CarriedStress(law_inputs.clone())),
+            true => offer.stage(implicit_elastic_stress(law_inputs.clone())),
+            false => offer.stage(carried_stress(law_inputs.clone())),
         }
-        offer.stage(Yielded::new(law_inputs.clone()));
+        offer.stage(yield_shares(law_inputs.clone()));
         if let Some(gradient) = self.0.adjoint() {
-            offer.stage(StressCorrection(gradient.clone()));
+            offer.stage(stress_correction(gradient.clone()));
         }
         let Some(gradient) = self.0.gradient_stage(read) else {
             return Ok(());
@@ -123,12 +122,14 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         match self.wave(setting).filter(|_| force.sub_steps()) {
             None => offer.hook(motion),
             Some(wave) => {
-                let longest = wave.longest_sub_step(setting.world);
+                // About half of the 2/max k̂ at which nested differences k̂ on a lattice become unstable (1.73 to 1.76 h for
+                // `wendland-c2` at h = 2δr).
+                let longest = 0.8 * setting.world.kernel.smoothing_length() / wave.speed;
                 let term: OutsideForce<D> = self.term(&**force).into();
                 let sub_steps = ElasticSubSteps {
                     term: term.clone(),
                     motion,
-                    law_inputs,
+                    carried: Box::new(carried_stress(law_inputs)),
                     longest,
                     touched: Vec::new(),
                     acceleration: Vec::new(),
@@ -136,7 +137,10 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
                     behind: 0.0,
                 };
                 offer.outside.push(term);
-                offer.inner_bounds.push(sub_steps.bound());
+                let bound = format!(
+                    "elastic sub-steps: {longest:.2e} s at most, as many within a step as it takes"
+                );
+                offer.inner_bounds.push(bound);
                 offer.hook(sub_steps);
             }
         }
@@ -167,7 +171,6 @@ impl<const D: usize> Elasticity<D> {
         }
     }
 
-    /// Refuses stresses of the end of the step where they are not known.
     fn refuse_implicit(&self) -> Result<(), Refusal> {
         let why = match self.0.implicit_share {
             None => {
@@ -190,7 +193,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key(KIND, "implicit", why))
     }
 
-    /// Refuses a blend of forces where it is not known.
     fn refuse_blend(&self) -> Result<(), Refusal> {
         let blends = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.blends());
         let damps = |law: &dyn Rheology| law.elastic().is_some_and(|e| e.damps());
@@ -209,7 +211,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key(KIND, "blend", why))
     }
 
-    /// Refuses the adjoint force where it is not known.
     fn refuse_adjoint(
         &self,
         force: &dyn ElasticForce<D>,
@@ -234,7 +235,6 @@ impl<const D: usize> Elasticity<D> {
         Err(Refusal::at_key("velocity-gradient", "adjoint", why))
     }
 
-    /// Refuses sub-steps where they are not known.
     fn refuse_sub_steps(
         &self,
         force: &dyn ElasticForce<D>,
@@ -266,14 +266,6 @@ pub struct ElasticWaveLimit {
     pub speed: f64,
     /// k.
     pub stiffness: f64,
-}
-
-impl ElasticWaveLimit {
-    /// The longest sub-step, s: 0.8 h over the speed, about half of the 2/max k̂ at which nested differences k̂ on a lattice
-    /// become unstable (1.73 to 1.76 h for `wendland-c2` at h = 2δr).
-    pub fn longest_sub_step<const D: usize>(&self, world: &World<D>) -> f64 {
-        0.8 * world.kernel.smoothing_length() / self.speed
-    }
 }
 
 impl<const D: usize> Limiter<D> for ElasticWaveLimit {

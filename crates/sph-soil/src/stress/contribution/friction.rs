@@ -3,15 +3,17 @@
 use sph_contribution::{
     Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, Stages, contributes,
 };
-use sph_core::AnyField;
+use sph_core::{AnyField, Stage};
 use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
 use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, ViscousLimit};
+use sph_neighbours::World;
 use sph_rheology::Rheology;
 
 use super::Materials;
-use crate::stress::{Blend, Blended, CoulombFriction, StrainRate, ViscosityStage};
+use crate::stress::law_stages::viscosities;
+use crate::stress::strain_rate::strain_rates;
+use crate::stress::{Blend, Blended, CoulombFriction};
 
-/// The viscous force of the laws.
 struct Friction<const D: usize> {
     materials: Materials<D>,
     implicit: Option<(Box<dyn TimeScheme>, Box<dyn LinearSolver<D>>)>,
@@ -36,11 +38,8 @@ impl<const D: usize> Friction<D> {
         self.materials.implicit_share.is_some()
     }
 
-    fn viscosity_stage(&self) -> ViscosityStage {
-        ViscosityStage {
-            law_inputs: self.materials.law_inputs(),
-            eddies: self.materials.eddies,
-        }
+    fn viscosity_stage(&self) -> impl Stage<World<D>> + use<D> {
+        viscosities(self.materials.law_inputs(), self.materials.eddies)
     }
 
     /// η/ρ₀, the largest that the laws allow, m²/s.
@@ -68,19 +67,16 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         }
         let why = "the friction could not be solved for: name a solver with more iterations \
                    (`[linear-solver.conjugate-gradient] iterations`), or `[linear-solver.cholesky]`, which needs none";
-        let remedy = (ImplicitViscosity::<D>::NAME, why.into());
-        offer.remedies_of_failures.push(remedy);
+        (offer.remedies_of_failures).push((ImplicitViscosity::<D>::NAME, why.into()));
         if self.solved_for() {
-            offer.remedy = Some(
-                "it is solved for, so look at the rheology: a smaller largest viscosity, or another [linear-solver]"
-                    .into(),
-            );
+            let remedy = "it is solved for, so look at the rheology: a smaller largest viscosity, or another \
+                          [linear-solver]";
+            offer.remedy = Some(remedy.into());
             return Ok(());
         }
-        offer.remedy = Some(
-            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it"
-                .into(),
-        );
+        let remedy =
+            "treat the viscosity implicitly (`[implicit-viscosity.backward-euler]`), or lower it";
+        offer.remedy = Some(remedy.into());
         if !materials.inviscid() {
             let term = materials.operator.term(viscosity);
             match materials.law_inputs().blend {
@@ -115,7 +111,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let gradient = materials.gradient_stage(read);
         if let Some(gradient) = gradient.filter(|_| materials.law_inputs().strain_rate()) {
             stages.push(Box::new(gradient));
-            stages.push(Box::new(StrainRate));
+            stages.push(Box::new(strain_rates()));
             stages.push(Box::new(self.viscosity_stage()));
         }
         let lagged = PicardUpdates {
@@ -130,7 +126,6 @@ impl<const D: usize> Contribution<D> for Friction<D> {
     }
 }
 
-/// Coulomb's friction, where a wall has a coefficient.
 struct WallFriction<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]

@@ -10,9 +10,10 @@ use sph_rheology::{Rheology, RheologyEntry};
 
 use crate::dilatancy::DilatancyEntry;
 use crate::pores::FRICTION_PRESSURE;
+use crate::stress::strain_rate::{StrainRateTerm, strain_rates};
 use crate::stress::{
-    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, StrainRate,
-    StrainRateTerm, VelocityGradient, VelocityGradientEntry,
+    Blend, ElasticForce, ElasticForceEntry, GradientStage, LawInputs, Rheologies, VelocityGradient,
+    VelocityGradientEntry,
 };
 
 /// The laws of a scene, and the plugins that make forces of them.
@@ -66,7 +67,6 @@ impl<const D: usize> Materials<D> {
         })
     }
 
-    /// The pressure between grains.
     pub(crate) fn grain_pressure(&self) -> Field<Scalar> {
         match self.effective {
             true => fields::EFFECTIVE_PRESSURE,
@@ -74,7 +74,6 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// The inputs of the laws.
     pub(crate) fn law_inputs(&self) -> LawInputs {
         let blend = self.force.as_ref().map(|force| force.blend());
         LawInputs {
@@ -112,7 +111,6 @@ impl<const D: usize> Materials<D> {
         }
     }
 
-    /// True if nothing has a viscosity.
     pub(crate) fn inviscid(&self) -> bool {
         self.viscosity() == Viscosity::Uniform(0.0)
     }
@@ -139,7 +137,6 @@ impl<const D: usize> Materials<D> {
     }
 }
 
-/// True if a velocity gradient or a strain rate is among columns.
 fn includes_gradients(read: &[AnyField]) -> bool {
     let gradients = [fields::VELOCITY_GRADIENT.any(), fields::STRAIN_RATE.any()];
     read.iter().any(|field| gradients.contains(field))
@@ -149,7 +146,6 @@ fn reads_gradients(law: &dyn Rheology) -> bool {
     law.needs().strain_rate || law.elastic().is_some()
 }
 
-/// Velocity gradients and strain rates, where a law or a stage needs them.
 struct Straining<const D: usize>(Materials<D>);
 
 #[cfg(not(test))]
@@ -180,7 +176,7 @@ impl<const D: usize> Contribution<D> for Straining<D> {
             return Ok(());
         };
         match self.0.strain_rides(read) {
-            false => offer.stage(StrainRate),
+            false => offer.stage(strain_rates()),
             true => {
                 let term = Box::new(StrainRateTerm { formula });
                 offer.riding.push((fields::STRAIN_RATE.any(), term));

@@ -1,4 +1,0 @@
-//! The kind of all closures.
-
-/// Its name in scenes.
-pub(crate) const KIND: &str = "eddy-viscosity";
