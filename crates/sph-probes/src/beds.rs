@@ -1,9 +1,7 @@
 //! Probes of beds under water.
 
-pub(crate) mod bed_levels;
-pub(crate) mod bed_lines;
-pub(crate) mod columns;
-pub(crate) mod concentration_level;
-pub(crate) mod eroded_mass;
-pub(crate) mod pore_pressure;
-pub(crate) mod scour_map;
+mod bed_levels;
+mod concentration_level;
+mod eroded_mass;
+mod lines;
+mod scour_map;

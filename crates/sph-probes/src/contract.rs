@@ -15,7 +15,7 @@ pub struct ProbeColumn {
 impl ProbeColumn {
     /// The only column of a probe.
     pub fn only(unit: &'static str) -> Vec<ProbeColumn> {
-        vec![ProbeColumn::named("", unit)]
+        ProbeColumn::several(&[("", unit)])
     }
 
     /// One of several columns.
@@ -75,34 +75,6 @@ pub struct Needs<'a> {
     pub fields: Vec<String>,
 }
 
-/// Curves of a probe: a table is written with every output of fields, `curves/NAME_0003.csv`.
-pub trait Curves<const D: usize> {
-    /// The columns of the table.
-    fn curve_columns(&self) -> Vec<ProbeColumn>;
-    /// The rows now; NaN where there is nothing to measure.
-    ///
-    /// # Errors
-    /// If a column of the flow is missing.
-    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError>;
-    /// Column that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
-    fn drawn_column(&self) -> Option<usize> {
-        None
-    }
-}
-
-/// Sums of a probe over the rows of the series.
-pub trait Gathers<const D: usize> {
-    /// Takes the flow at a row into the sums.
-    ///
-    /// # Errors
-    /// If a column of the flow is missing.
-    fn gather(&self, world: &World<D>) -> Result<(), StepError>;
-    /// The sums, bit by bit, for checkpoints.
-    fn gathered(&self) -> Vec<u64>;
-    /// Goes on with the sums of a run that is resumed.
-    fn recall(&self, gathered: &[u64]);
-}
-
 /// Something measured at every row of the time series.
 pub trait Probe<const D: usize>: Send {
     /// The columns it adds.
@@ -118,14 +90,34 @@ pub trait Probe<const D: usize>: Send {
     fn needs(&self) -> Needs<'_> {
         Needs::default()
     }
-    /// Its curves, if it has some.
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+    /// The columns of its curves, if it has some: a table is written with every output of fields, `curves/NAME_0003.csv`.
+    fn curve_columns(&self) -> Vec<ProbeColumn> {
+        Vec::new()
+    }
+    /// The rows of the curves now; NaN where there is nothing to measure.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn curves(&self, _world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
+        Ok(Vec::new())
+    }
+    /// Column of the curves that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
+    fn drawn_column(&self) -> Option<usize> {
         None
     }
-    /// Its sums over time, if it has some.
-    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
-        None
+    /// Takes the flow at a row of the series into the sums over time, if the probe has some.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn gather(&self, _world: &World<D>) -> Result<(), StepError> {
+        Ok(())
     }
+    /// The sums, bit by bit, for checkpoints.
+    fn gathered(&self) -> Vec<u64> {
+        Vec::new()
+    }
+    /// Goes on with the sums of a run that is resumed.
+    fn recall(&self, _gathered: &[u64]) {}
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {
         None

@@ -19,15 +19,12 @@ mod sampling;
 mod solutions;
 mod surface;
 
-pub use contract::{
-    Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry,
-};
+pub use contract::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry};
 pub use derived::{derived_fields, derived_stages, needs_gradient};
 pub use flow::energy_budget::{
     BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, work_of_stranger,
 };
-pub use flow::level::Level;
 pub use flow::profile::Profile;
 pub use measure::{Reduce, Reduction, Weight, WeightedValues};
-pub use solutions::*;
+pub use phases::level::Level;
 pub use surface::{SURFACE_DISTANCE, surface_distance};

@@ -1,6 +1,5 @@
 //! Probes of one phase.
 
-pub(crate) mod interface;
-pub(crate) mod line;
+pub(crate) mod level;
 pub(crate) mod phase;
-pub(crate) mod slope;
+mod slope;

@@ -5,7 +5,7 @@ use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
 use crate::contract::refused;
-use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Levels of a bed, its load, and Shields numbers.
 ///
@@ -75,10 +75,6 @@ impl<const D: usize> Probe<D> for BedLevels {
         ])
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        Some(self)
-    }
-
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let bed = self.bed(world)?;
         let none = [f64::NAN; 2];
@@ -114,9 +110,7 @@ impl<const D: usize> Probe<D> for BedLevels {
             bed.lifted,
         ])
     }
-}
 
-impl<const D: usize> Curves<D> for BedLevels {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let mut all = ProbeColumn::several(&[
             ("x", "m"),

@@ -5,7 +5,7 @@ use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Root mean square over a reference's places of u − e, with u a component of the velocity on a straight
 /// line and e the reference, and the largest |u − e|, m/s. The profile itself is its curve.
@@ -124,10 +124,6 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(())
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        Some(self)
-    }
-
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let rows = self.sampled(world)?;
         let off = || rows.iter().map(|[_, u, e]| u - e).filter(|d| !d.is_nan());
@@ -139,9 +135,7 @@ impl<const D: usize> Probe<D> for Profile {
         let largest = off().fold(0.0, |m: f64, d| m.max(d.abs()));
         Ok(vec![(squares / count as f64).sqrt(), largest])
     }
-}
 
-impl<const D: usize> Curves<D> for Profile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[("distance", "m"), ("velocity", "m/s"), ("reference", "m/s")])
     }

@@ -6,7 +6,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::contract::refused;
-use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// E(k) = ½ Σ |û|²/(2π/L) over the wave vectors whose length, in 2π/L, rounds to n, k = 2πn/L: the curve, up to the wave of two
 /// grid points. The columns are ∫ E dk, m²/s², and the wavenumber of the largest E, 1/m.
@@ -155,19 +155,13 @@ impl<const D: usize> Probe<D> for EnergySpectrum {
         ProbeColumn::several(&[(".energy", "m²/s²"), (".peak", "1/m")])
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        Some(self)
-    }
-
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let shells = self.shells(world)?;
         let total: f64 = shells.iter().map(|[_, e]| e * shells[0][0]).sum();
         let peak = shells.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
         Ok(vec![total, peak.map_or(f64::NAN, |p| p[0])])
     }
-}
 
-impl<const D: usize> Curves<D> for EnergySpectrum {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[("wavenumber", "1/m"), ("energy", "m³/s²")])
     }

@@ -8,7 +8,7 @@ use sph_neighbours::World;
 use super::quantity::{AXES, Quantity};
 use super::reduction::{Reduce, WeightedValues};
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
+use crate::{Needs, Probe, ProbeColumn, ProbeScene, norm};
 
 /// Bounds on a quantity, the lower and the upper one: a particle on a bound does not count.
 pub(crate) type QuantityBounds = (Quantity, [f64; 2]);
@@ -201,10 +201,6 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
         }
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        self.preset.plan(D).slices.is_some().then_some(self)
-    }
-
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let plan = self.preset.plan(D);
         let (all, of_phase) = self.counted(world, &plan)?;
@@ -217,12 +213,12 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
         }
         Ok(columns)
     }
-}
 
-impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let plan = self.preset.plan(D);
-        let axis = plan.slices.map_or(0, |(axis, _)| axis.min(D - 1));
+        let Some((axis, _)) = plan.slices else {
+            return Vec::new();
+        };
         let columns = Probe::<D>::columns(self).into_iter();
         let own = columns.take(plan.columns.len()).map(|column| ProbeColumn {
             suffix: match column.suffix.trim_start_matches('.') {
@@ -231,7 +227,7 @@ impl<const D: usize, P: Preset> Curves<D> for MeasuringProbe<P> {
             },
             ..column
         });
-        let axis = ProbeColumn::named(AXES[axis], "m");
+        let axis = ProbeColumn::named(AXES[axis.min(D - 1)], "m");
         std::iter::once(axis).chain(own).collect()
     }
 
