@@ -3,6 +3,5 @@
 mod grid;
 pub mod matrix;
 pub mod plots;
-pub mod publish;
 pub mod report;
 pub mod table;

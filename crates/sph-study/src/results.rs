@@ -3,7 +3,6 @@
 pub mod compare;
 pub mod frontier;
 pub mod order;
-pub mod pareto;
 pub mod scaling;
 pub mod variant_result;
 
@@ -12,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use sph_core::comma_list;
 
-use crate::results::pareto::pareto;
+use crate::results::order::pareto;
 use crate::{
     Frontier, MeansPlot, Orders, Origin, Record, Scale, SeriesResult, Study, Variant, VariantResult,
 };
@@ -70,7 +69,7 @@ impl Results {
     pub fn new(study: &Study, records: &[Record], origin: Origin) -> Self {
         let axes: Vec<String> = study.axes.iter().map(|a| a.name.clone()).collect();
         let variants = study.variants.iter().zip(records);
-        let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].judge);
+        let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].frontier.judge);
         let variants = variants.map(|(v, record)| VariantResult::new(v, record, judge(v), &axes));
         let variants = variants.collect();
         let mut results = Results {

@@ -9,7 +9,7 @@ use sph_core::number;
 use sph_run::Progress;
 use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
 
-use crate::terminal::display::Display;
+use crate::terminal::progress::Display;
 
 /// Wall-clock time between two lines within a variant.
 const LINE: Duration = Duration::from_secs(30);
@@ -30,7 +30,7 @@ pub struct Watcher<'s> {
 /// The error of a finished variant that is reported, its cost, or its verdict.
 fn sentence(study: &Study, variant: &Variant, record: &Record) -> String {
     if let Some(rung) = variant.rung {
-        return match verdict(record, &study.ladders[rung.ladder].judge) {
+        return match verdict(record, &study.ladders[rung.ladder].frontier.judge) {
             Some(found) if found.why.is_empty() => found.colour.name().to_string(),
             Some(found) => format!("{}, {}", found.colour.name(), found.why),
             None => record.status.name().to_string(),
@@ -109,7 +109,6 @@ impl<'s> Watcher<'s> {
         state.started = Instant::now();
     }
 
-    /// Removes the bar.
     pub fn finish(&self) {
         self.display.finish();
     }
@@ -135,7 +134,6 @@ impl<'s> Watcher<'s> {
 }
 
 impl State {
-    /// Share of the estimated work that is done.
     fn done_share(&self) -> f64 {
         let all: f64 = self.cost.values().sum();
         let shares = self.share.iter();

@@ -1,23 +1,22 @@
-//! `report.html`: all of a study on one page that needs no other file.
+//! Files that a study leaves: `report.html` has all of it on one page that needs no other file.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::path::Path;
 
 use sph_core::{comma_list, number};
-use sph_io::{IoError, escape};
+use sph_io::{IoError, Plot, escape, write_whole};
 
 use crate::pages::grid::{grid, plain_grid};
 use crate::pages::{matrix, plots, table};
+use crate::reading::combine::safe;
 use crate::{Origin, Results, Scale, Status};
 
 /// Style of the page, on paper too.
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The page.
-///
-/// # Errors
-/// If a plot cannot be drawn.
-pub fn html(results: &Results) -> Result<String, IoError> {
+fn html(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     let title = escape(&results.title);
     let _ = writeln!(
@@ -227,6 +226,35 @@ fn stages(results: &Results) -> String {
     }
     let grid = some_grid(&["variant", "stage", "seconds", "share"], &rows);
     headed("Where the time goes", &grid)
+}
+
+/// Writes `study.json`, `study.csv`, the plots and `report.html` into a folder.
+///
+/// # Errors
+/// The first file that cannot be written.
+pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
+    sph_io::write_json(folder.join("study.json"), results)?;
+    table::write_csv(results, &folder.join("study.csv"))?;
+    for (lines, plot) in matrix::axes(results) {
+        write_both(&plot, folder, &format!("axis-{}", safe(&lines[0].axis)))?;
+    }
+    if results.frontiers.is_empty() {
+        let plots = [
+            ("error-against-time", plots::work_precision(results)),
+            ("cost-against-size", plots::costs(results)),
+            ("means", plots::means(results)),
+            ("error-against-refinement", plots::convergence(results)),
+        ];
+        for (name, plot) in plots {
+            plot.map_or(Ok(()), |plot| write_both(&plot, folder, name))?;
+        }
+    }
+    write_whole(folder.join("report.html"), html(results)?)
+}
+
+fn write_both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
+    plot.save(folder.join(format!("{name}.svg")))?;
+    plot.save(folder.join(format!("{name}.png")))
 }
 
 #[cfg(test)]

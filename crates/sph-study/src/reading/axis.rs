@@ -11,7 +11,6 @@ use crate::reading::file;
 /// A scene value with the place of the study file that gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Set {
-    /// Settings put on the scene.
     pub value: Override,
     /// Path in the study file.
     pub path: String,
@@ -20,22 +19,18 @@ pub struct Set {
 /// A direction in which variants differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyAxis {
-    /// Name in tables and plots.
     pub name: String,
-    /// The places on it.
     pub choices: Vec<Choice>,
 }
 
 /// A place on an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choice {
-    /// Name in tables and plots.
     pub label: String,
     /// Name in folders: the label, after the axis' name where the label is a bare value.
     pub slug: String,
     /// Name of a scene in place of the study's, and its path in the study file.
     pub scene: Option<(String, String)>,
-    /// Keys and values that it sets.
     pub sets: Vec<Set>,
 }
 

@@ -8,8 +8,8 @@ use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::reader::{Inputs, Reader};
 use crate::reading::{axis, file};
 use crate::{
-    Bounds, Choice, Combine, Ladder, QUANTITIES, Refused, Rung, SceneText, StudyAxis, StudyFile,
-    Variant,
+    Bounds, Choice, Combine, Frontier, Ladder, QUANTITIES, Refused, Rung, SceneText, StudyAxis,
+    StudyFile, Variant,
 };
 
 /// Names of the axes to which the labels of such a study's variants belong.
@@ -161,14 +161,19 @@ fn one(
         column(combination, plugins(file, given)?),
         column(value, values.choices),
     ];
-    let ladder = Ladder {
-        name: given.name.clone(),
+    let frontier = Frontier {
+        axis: given.name.clone(),
         title: given.title.clone(),
         scene: scene.name.clone(),
         errors,
-        labels,
-        must,
         judge: judge.clone(),
+        must: must.map(|k| labels[k].clone()),
+        values: labels,
+        ..Frontier::default()
+    };
+    let ladder = Ladder {
+        frontier,
+        must,
         to_the_end: given.to_the_end,
     };
     Ok((ladder, scene, axes))

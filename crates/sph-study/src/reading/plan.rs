@@ -130,7 +130,6 @@ impl Study {
     }
 }
 
-/// Variants of one scene.
 fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
     let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
     let at = |path: &str, why: String| Refused::at(&source, path, why);
@@ -191,8 +190,9 @@ fn plan_ladders(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<
     let (ladders, variants) = ladder::read(&file, &source, inputs)?;
     let mut scenes: Vec<&str> = Vec::new();
     for ladder in &ladders {
-        if !scenes.contains(&ladder.scene.as_str()) {
-            scenes.push(&ladder.scene);
+        let scene = &ladder.frontier.scene;
+        if !scenes.contains(&scene.as_str()) {
+            scenes.push(scene);
         }
     }
     Ok(Study {

@@ -18,9 +18,7 @@ const REFINEMENT: &str = "numerics.spacing";
 
 /// Input of a study besides its file.
 pub(crate) struct Inputs<'a> {
-    /// Name of the study.
     pub name: String,
-    /// Finds a scene by its name.
     pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
     /// Settings put on top of every variant from outside.
     pub set: &'a [Override],
@@ -36,11 +34,9 @@ pub(crate) struct Reader<'a> {
     /// The scene of all places that have none of their own.
     pub scene: &'a SceneText,
     pub axes: &'a [StudyAxis],
-    /// Settings of every variant.
     pub common: Vec<Set>,
     /// References that the scene must have, with their places in the study file.
     pub errors: Vec<(String, String)>,
-    /// The key over which the order of convergence is computed.
     pub refinement: Option<String>,
 }
 

@@ -25,26 +25,19 @@ pub struct Comparison {
 /// A variant in both studies.
 #[derive(Clone, Debug, Serialize)]
 pub struct Change {
-    /// Name.
     pub name: String,
-    /// The way it ended.
     pub status: [String; 2],
     /// Name of an error with its values and their ratio.
     pub errors: Vec<(String, Pair)>,
-    /// Wall seconds and their ratio.
     pub wall_seconds: Pair,
-    /// Steps and their ratio.
     pub steps: Pair,
 }
 
 /// Two numbers and the second over the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Pair {
-    /// In the first study.
     pub first: Option<f64>,
-    /// In the second study.
     pub second: Option<f64>,
-    /// Second over first.
     pub ratio: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Orders of convergence: ln error over ln refinement.
+//! Orders of convergence, ln error over ln refinement, and variants that no other beats in both time and error.
 
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,21 @@ pub(crate) fn slope(points: &[[f64; 2]]) -> f64 {
     xy / xx
 }
 
+/// Names of the points of time and error that no other point beats, fastest first.
+pub fn pareto(mut points: Vec<(String, [f64; 2])>) -> Vec<String> {
+    points.retain(|(_, p)| p.iter().all(|x| x.is_finite()));
+    points.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut best = f64::INFINITY;
+    let mut kept = Vec::new();
+    for (name, [_, error]) in points {
+        if error < best {
+            best = error;
+            kept.push(name);
+        }
+    }
+    kept
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,5 +77,18 @@ mod tests {
         assert_eq!(two.finest_three, None);
         assert!((two.main().unwrap() - 1.0).abs() < 1e-12);
         assert_eq!(Orders::from_points(&[]), Orders::default());
+    }
+
+    #[test]
+    fn slower_and_less_accurate_variants_are_left_out() {
+        let points = [
+            ("slow", [3.0, 0.1]),
+            ("worse", [2.0, 0.5]),
+            ("fast", [1.0, 0.4]),
+            ("nothing", [0.5, f64::NAN]),
+            ("twin", [1.0, 0.4]),
+        ];
+        let points = points.map(|(n, p)| (n.to_string(), p)).to_vec();
+        assert_eq!(pareto(points), ["fast", "slow"]);
     }
 }

@@ -25,7 +25,6 @@ pub struct Scale {
 /// The cost of a series against size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeriesCost {
-    /// Name of the series.
     pub name: String,
     /// Particles and seconds, by size.
     pub points: Vec<[f64; 2]>,
@@ -38,7 +37,6 @@ pub struct SeriesCost {
 pub struct FastestRange {
     /// Labels on the axes that do not compete.
     pub among: String,
-    /// The fastest.
     pub name: String,
     /// Particles from and to which; between two sizes where their costs, as power laws, are the same.
     pub particles: [f64; 2],

@@ -72,7 +72,6 @@ pub struct WallSeconds {
 pub struct SeriesResult {
     /// Labels on the other axes.
     pub name: String,
-    /// Names of the variants.
     pub variants: Vec<String>,
     /// Orders of every judged error.
     pub orders: BTreeMap<String, Orders>,

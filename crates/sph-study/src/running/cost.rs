@@ -1,8 +1,7 @@
 //! Cost of a run: of a step, or of a solve.
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 use sph_core::parameters;
 
 /// A cost against the number of particles.
@@ -49,7 +48,6 @@ impl Cost {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SolveCost {
-    /// Systems solved.
     pub count: u64,
     /// Wall-clock seconds of all.
     pub seconds: f64,
@@ -59,22 +57,15 @@ pub struct SolveCost {
     pub bytes: usize,
 }
 
-/// Their entries in the summary of a run.
-#[derive(Deserialize)]
-pub(crate) struct SolveSummaries {
-    by_method: BTreeMap<String, u64>,
-    mean_iterations: f64,
-    wall_seconds: f64,
-    most_bytes: usize,
-}
-
 impl SolveCost {
-    pub(crate) fn from_solves(solves: SolveSummaries) -> Self {
-        SolveCost {
-            count: solves.by_method.values().sum(),
-            seconds: solves.wall_seconds,
-            iterations: solves.mean_iterations,
-            bytes: solves.most_bytes,
-        }
+    /// Of their entry in the summary of a run, if it has one.
+    pub(crate) fn from_summary(solves: &Json) -> Option<Self> {
+        let counts = solves["by_method"].as_object()?.values();
+        Some(SolveCost {
+            count: counts.filter_map(Json::as_u64).sum(),
+            seconds: solves["wall_seconds"].as_f64()?,
+            iterations: solves["mean_iterations"].as_f64()?,
+            bytes: solves["most_bytes"].as_u64()? as usize,
+        })
     }
 }

@@ -112,7 +112,7 @@ pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
 fn breaks(study: &Study, variant: &Variant, record: &Record) -> bool {
     let ladder = variant.rung.map(|r| &study.ladders[r.ladder]);
     ladder.is_some_and(|ladder| {
-        let found = verdict(record, &ladder.judge);
+        let found = verdict(record, &ladder.frontier.judge);
         !ladder.to_the_end && found.is_some_and(|v| v.colour == Colour::Red)
     })
 }

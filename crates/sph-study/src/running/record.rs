@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 use sph_io::IoError;
 use sph_run::Trouble;
 
-use crate::running::cost::SolveSummaries;
 use crate::{Cost, Origin, SolveCost};
 
 /// Name of the record in a variant's folder.
@@ -87,14 +87,11 @@ pub struct Record {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RunSize {
-    /// Threads.
     pub threads: usize,
     /// Free particles, or grains.
     #[serde(alias = "grains")]
     pub particles: usize,
-    /// Steps taken.
     pub steps: u64,
-    /// Steps that were rolled back.
     pub steps_rolled_back: u64,
     /// Simulated time reached, s.
     pub simulated_seconds: f64,
@@ -135,7 +132,6 @@ impl Health {
 pub struct Error {
     /// The number; null if nothing could be compared.
     pub value: Option<f64>,
-    /// Name of the norm.
     pub norm: String,
     /// Unit, "1" for relative norms.
     #[serde(default = "one")]
@@ -149,55 +145,32 @@ fn one() -> String {
     "1".into()
 }
 
-/// The part of a run's summary that a study reads, of any method.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct RunSummary {
-    wall_seconds: f64,
-    #[serde(flatten)]
-    size: RunSize,
-    dt_limiters: BTreeMap<String, f64>,
-    implicit_viscosity: Option<SolveSummaries>,
-    errors: BTreeMap<String, Error>,
-    wall_seconds_by_stage: BTreeMap<String, f64>,
-    escaped: usize,
-    density_range: [Option<f64>; 2],
-    drift: DriftSummary,
-    mach: Option<f64>,
-    nearest: [Option<f64>; 2],
-    first_trouble: Option<Trouble>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct DriftSummary {
-    energy: Option<f64>,
-    energy_rise: Option<f64>,
-    momentum: Option<f64>,
+/// A part of a run's summary, which a method may lack.
+fn part<T: DeserializeOwned + Default>(summary: &Json, key: &str) -> T {
+    T::deserialize(&summary[key]).unwrap_or_default()
 }
 
 impl Record {
     /// Results of a run, from its summary.
-    pub fn from_summary(summary: Json) -> Self {
-        let told: RunSummary = serde_json::from_value(summary).unwrap_or_default();
-        let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);
+    pub fn from_summary(summary: &Json) -> Self {
+        let drift = &summary["drift"];
         Record {
-            spent: told.wall_seconds,
-            size: told.size,
-            dt_limiters: told.dt_limiters,
-            solves: told.implicit_viscosity.map(SolveCost::from_solves),
+            spent: part(summary, "wall_seconds"),
+            size: RunSize::deserialize(summary).unwrap_or_default(),
+            dt_limiters: part(summary, "dt_limiters"),
+            solves: SolveCost::from_summary(&summary["implicit_viscosity"]),
             health: Health {
-                escaped: told.escaped,
-                density_range: both(told.density_range),
-                energy_drift: told.drift.energy,
-                energy_rise: told.drift.energy_rise,
-                momentum_drift: told.drift.momentum,
-                mach: told.mach,
-                nearest: both(told.nearest),
-                first_trouble: told.first_trouble,
+                escaped: part(summary, "escaped"),
+                density_range: part(summary, "density_range"),
+                energy_drift: part(drift, "energy"),
+                energy_rise: part(drift, "energy_rise"),
+                momentum_drift: part(drift, "momentum"),
+                mach: part(summary, "mach"),
+                nearest: part(summary, "nearest"),
+                first_trouble: part(summary, "first_trouble"),
             },
-            errors: told.errors,
-            wall_seconds_by_stage: told.wall_seconds_by_stage,
+            errors: part(summary, "errors"),
+            wall_seconds_by_stage: part(summary, "wall_seconds_by_stage"),
             ..Record::default()
         }
     }
