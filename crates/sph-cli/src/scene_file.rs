@@ -66,7 +66,6 @@ pub struct OpenScene {
     _unpacked: Option<Scratch>,
 }
 
-/// The values of `--set`.
 pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
     let parse = |text: &String| {
         let parsed = Override::parse(text);

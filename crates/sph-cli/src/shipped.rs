@@ -7,19 +7,16 @@ include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 /// Folder in which scenes are looked for before the compiled-in ones.
 const FOLDER: &str = "scenes";
 
-/// A shipped scene or study.
 #[derive(Clone, Debug)]
 pub struct Shipped {
     /// Name without extension.
     pub name: String,
-    /// Its text.
     pub content: Content,
 }
 
 /// A file in ./scenes or ./studies, or a text in the program.
 #[derive(Clone, Debug)]
 pub enum Content {
-    /// The file.
     File(PathBuf),
     /// The text that is compiled in.
     CompiledIn(&'static str),
@@ -81,7 +78,6 @@ pub fn find_study(name: &str) -> Option<Shipped> {
     Some(Shipped { name, content })
 }
 
-/// Names of the compiled-in studies.
 pub fn studies() -> impl Iterator<Item = &'static str> {
     STUDIES.iter().map(|(name, _)| *name)
 }

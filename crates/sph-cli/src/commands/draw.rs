@@ -8,7 +8,6 @@ use sph_io::curves::{Frames, Line};
 use crate::terminal::{Trouble, console};
 use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
 
-/// Draws the requested curves.
 pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
     match asked {
         DrawCommand::Streamlines(a) => streamlines(a),
@@ -84,7 +83,6 @@ fn report(what: &str, path: &Path) {
     console::out(&format!("{what} in {path} and {table}\n"));
 }
 
-/// The frames of a run.
 pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     if !folder.join("fields.pvd").is_file() {
         let folder = folder.display();

@@ -17,7 +17,6 @@ use crate::terminal::{
 /// Machines that are listed.
 const SHOWN: usize = 16;
 
-/// Shows the parts of a scene.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let mut told = output(&opened)?;

@@ -57,7 +57,6 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
     rows
 }
 
-/// The summary that a run left in its folder.
 pub fn read_summary(folder: &Path) -> Option<Json> {
     let text = std::fs::read_to_string(folder.join(SUMMARY)).ok()?;
     serde_json::from_str(&text).ok()

@@ -12,13 +12,11 @@ use crate::terminal::{
     quantities, remarks, row, sections, table_and_below,
 };
 
-/// Lists sizes, costs and remarks of a scene, without preparing its grains.
 pub fn check(loaded: &Loaded, shown: &str) -> Result<CommandOutput, Trouble> {
     let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput::new(&found, check_text(&found, shown)))
 }
 
-/// Shows the parts of a scene.
 pub fn explain(loaded: &Loaded) -> Result<CommandOutput, Trouble> {
     let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput::new(&found, explain_text(&found)))

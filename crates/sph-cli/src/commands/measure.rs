@@ -22,7 +22,6 @@ struct QuantityBound<'a> {
     least: bool,
 }
 
-/// Prints a table of all frames, or writes it to a file.
 pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     let bounds = bounds(arguments)?;
     let phase = arguments.phase.as_deref();
@@ -50,7 +49,6 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The names of the columns, with their units.
 fn names(arguments: &MeasureArguments, unit: &str) -> Vec<String> {
     let named = |how: String| match some_unit(unit) {
         None => how,

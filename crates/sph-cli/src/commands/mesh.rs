@@ -23,7 +23,6 @@ pub fn is_mesh(argument: &str) -> bool {
     ending.is_some_and(|e| e.eq_ignore_ascii_case("stl"))
 }
 
-/// Contents of a file of facets.
 pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
     let (facets, odd) = Facets::read(Path::new(file))?;
     let topology = facets.topology();
@@ -65,7 +64,6 @@ fn place(x: &[f64; 3]) -> String {
     format!("({})", x.map(number::plain).join(", "))
 }
 
-/// A surface and its properties.
 struct Mesh {
     facets: Facets,
     topology: Topology,
@@ -117,7 +115,6 @@ impl Mesh {
         rows
     }
 
-    /// The remedy.
     fn said(&self) -> Vec<String> {
         let mut said = Vec::new();
         if !self.topology.flipped.is_empty() {

@@ -14,7 +14,6 @@ use crate::{scene_file, shipped};
 /// A dam break in a box, every line explained.
 const TEMPLATE: &str = include_str!("../../templates/dam-break.toml");
 
-/// Writes a scene to start from.
 pub fn command(name: &Path, from: Option<&str>) -> Result<(), Trouble> {
     let path = target(name)?;
     let (text, origin) = match from {

@@ -1,7 +1,5 @@
 //! `sph plugins`.
 
-mod choices;
-mod kernel_picture;
 mod law_sample;
 mod page;
 mod picture;
@@ -19,7 +17,6 @@ use crate::tool_arguments::PluginArguments;
 const LAWS: &str = "rheology";
 const KERNELS: &str = "kernel";
 
-/// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let kinds = kinds();
     let Some(kind) = &arguments.kind else {
@@ -37,8 +34,8 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
     if let Some(file) = &arguments.picture {
         return match kind.name {
-            LAWS => picture::draw(arguments, &plugins, file),
-            KERNELS => kernel_picture::draw(arguments, &plugins, file),
+            LAWS => picture::draw_laws(arguments, &plugins, file),
+            KERNELS => picture::draw_kernels(arguments, &plugins, file),
             _ => Err(Trouble::usage(format!(
                 "only laws and kernels can be drawn: sph plugins {LAWS} NAME --picture FILE"
             ))),
@@ -153,7 +150,7 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
     let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!(", {unit}"));
     let mut text = format!("  {name} ({kind}{unit}; {default})\n");
     text.push_str(&paragraph(6, WIDTH, &parameter.meaning));
-    let choices = choices::choices_of(schema, name);
+    let choices = snippet::choices_of(schema, name);
     for (k, choice) in choices.iter().enumerate() {
         let lead = if k == 0 { "one of " } else { "or " };
         let colon = if choice.meaning.is_empty() { "" } else { ": " };
@@ -186,7 +183,7 @@ fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
     let schema = (plugin.schema)();
     let all = parameters(&schema).into_iter().map(|p| {
         let required = required(&schema, &p.name);
-        let choices = choices::choices_of(&schema, &p.name).into_iter();
+        let choices = snippet::choices_of(&schema, &p.name).into_iter();
         let choices: Vec<String> = choices.map(|c| c.value).collect();
         json!({
             "name": p.name, "type": p.kind, "unit": p.unit, "default": p.default,

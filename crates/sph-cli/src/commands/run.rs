@@ -15,7 +15,6 @@ use crate::terminal::progress::Watcher;
 use crate::terminal::{CommandOutput, Ended, ModelError, Trouble, console, shell};
 use crate::{interrupt, ranks};
 
-/// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let out = folder(arguments, &opened);
@@ -128,7 +127,6 @@ fn ended(
     }
 }
 
-/// Begin of the run.
 fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let Some(other) = &arguments.from else {
         return Ok(match (arguments.resume, arguments.changed) {

@@ -22,7 +22,6 @@ type FoundScene = (SceneText, Option<sph_io::Scratch>);
 /// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;
 
-/// Runs a study, or compares two.
 pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if let [first, second] = arguments.compare.as_slice() {
         return compared(arguments, first, second);

@@ -20,7 +20,6 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// Browsers that are served at once.
 const MOST: usize = 16;
 
-/// Serves a folder until the process is ended.
 pub fn command(folder: &Path, port: u16) -> Result<(), Trouble> {
     let real = folder.canonicalize().ok().filter(|f| f.is_dir());
     let shown = folder.display();

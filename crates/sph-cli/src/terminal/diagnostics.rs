@@ -102,7 +102,6 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
     Some(last..before.len())
 }
 
-/// The diagnostics for a program.
 pub fn json(all: &[Mistake]) -> Json {
     let all = all.iter().map(|l| {
         let Diagnostic {

@@ -27,7 +27,6 @@ pub fn columns(indent: usize, rows: impl IntoIterator<Item = Vec<String>>) -> St
     text
 }
 
-/// A name beside its value.
 pub fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![name.to_string(), value.into()]
 }

@@ -1,13 +1,69 @@
-//! Progress of a run: a bar for a person, lines for a log.
+//! Progress of a run on stderr: a bar for a person, lines for a log.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_core::number;
+use sph_io::clean;
 use sph_run::{Command, Observer, Progress};
 
-use crate::terminal::display::Display;
+use crate::terminal::console;
+
+/// Wall-clock time between two updates of the bar.
+const BAR: Duration = Duration::from_millis(100);
+/// Divisions of the bar.
+const DIVISIONS: u64 = 1000;
+
+pub enum Display {
+    Bar(ProgressBar),
+    Lines,
+    Silent,
+}
+
+impl Display {
+    /// The form for stderr, and the wall-clock time between two updates; `line` is that between two lines.
+    pub fn new(quiet: bool, line: Duration) -> (Self, Duration) {
+        match (quiet, console::terminal()) {
+            (true, _) => (Display::Silent, line),
+            (false, true) => (Display::Bar(bar()), BAR),
+            (false, false) => (Display::Lines, line),
+        }
+    }
+
+    pub fn say(&self, text: &str) {
+        match self {
+            Display::Bar(bar) => bar.println(clean(text)),
+            Display::Lines => console::err(text),
+            Display::Silent => {}
+        }
+    }
+
+    pub fn show(&self, share: f64, text: &str) {
+        match self {
+            Display::Bar(bar) => {
+                bar.set_position((share * DIVISIONS as f64) as u64);
+                bar.set_message(clean(text).into_owned());
+            }
+            Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
+            Display::Silent => {}
+        }
+    }
+
+    pub fn finish(&self) {
+        if let Display::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
 
 /// Wall-clock time between two lines.
 const LINE: Duration = Duration::from_secs(5);

@@ -79,11 +79,8 @@ pub struct ModelError {
     error: String,
     /// The particle, and possible remedies, in lines.
     more: String,
-    /// Exit code.
     code: u8,
-    /// True if a step failed.
     pub ran: bool,
-    /// First remedy where a file could not be written.
     pub remedy: Option<&'static str>,
 }
 
@@ -101,7 +98,7 @@ impl From<RunError> for ModelError {
             }
             RunError::Failed(failure) => {
                 told.ran = true;
-                told.more = crate::commands::failed::text(&failure);
+                told.more = crate::commands::outcome::failure(&failure);
             }
             RunError::Io(io) => {
                 told.remedy = remedy(&io);

@@ -8,7 +8,6 @@ use toml::{Table, Value};
 use crate::scene_file::overrides;
 use crate::terminal::Trouble;
 
-/// A law to be sheared.
 pub struct LawSample {
     /// Name, and its difference from its neighbours.
     pub label: String,

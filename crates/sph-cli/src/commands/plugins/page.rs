@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 use sph_core::{Parameter, PluginInfo, PluginKind, comma_list, parameters, some_unit};
 
-use super::choices::choices_of;
+use super::snippet::choices_of;
 use super::{KERNELS, LAWS, dimensions, required};
 use crate::terminal::paragraph;
 
@@ -27,7 +27,6 @@ const LONGEST: usize = 120;
 /// Stands for a space at which no line ends.
 const GLUE: char = '\0';
 
-/// A page of kinds.
 pub fn markdown(kinds: &[&PluginKind]) -> String {
     let mut page = String::from(
         "# Plugins\n\nAll that a scene may name. This page is what `sph plugins --markdown` prints; a test holds it to that.\n\
@@ -74,7 +73,6 @@ fn picture(kind: &str, name: &str) -> Option<String> {
     Some(format!("![{seen}](images/{file})"))
 }
 
-/// A parameter: name, unit, default, meaning.
 fn parameter(parameter: &Parameter, schema: &Json) -> String {
     let Parameter { name, source, .. } = parameter;
     let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!("{unit}, "));
@@ -117,7 +115,6 @@ fn wrapped(text: &str, indent: usize) -> String {
     lines.trim().replace(GLUE, " ")
 }
 
-/// An item of a list.
 fn item(text: &str) -> String {
     format!("* {}\n", wrapped(text, 2))
 }

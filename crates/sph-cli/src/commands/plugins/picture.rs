@@ -1,9 +1,10 @@
-//! `sph plugins rheology NAME… --picture FILE`: laws, sheared alone and drawn.
+//! `sph plugins KIND NAME… --picture FILE`: laws, sheared alone, and kernels with their slopes.
 
 use std::path::Path;
 
 use sph_core::{PluginInfo, number};
 use sph_io::{Panels, Plot, Series};
+use sph_solver::kernels::{self, Kernel};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::law_sample::{self, LawSample};
@@ -31,8 +32,7 @@ struct Curve<'s> {
     pressure: f64,
 }
 
-/// Draws the laws into the file that the arguments name.
-pub fn draw(
+pub fn draw_laws(
     arguments: &PluginArguments,
     plugins: &[PluginInfo],
     file: &Path,
@@ -54,8 +54,7 @@ pub fn draw(
     save(&panels, file)
 }
 
-/// Writes a picture and prints its name.
-pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
+fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
     picture("picture", file, &["svg", "png"])?;
     panels.save(file).map_err(|e| e.to_string())?;
     console::out(&format!("wrote {}\n", file.display()));
@@ -164,7 +163,6 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
     Ok(Panels(panels))
 }
 
-/// Viscosities over the strain rate.
 fn viscosities(series: Vec<Series>) -> Plot {
     Plot {
         x_label: "strain rate [1/s]".into(),
@@ -231,4 +229,49 @@ fn strain(arguments: &PluginArguments) -> Result<Option<f64>, Trouble> {
 fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Trouble> {
     let each = given.iter().map(|text| quantity(option, text, unit));
     each.collect()
+}
+
+/// The pictures are of the kernels of the plane.
+const DIMENSION: usize = 2;
+
+/// Draws w h² and −w' h³ over r/h in two dimensions.
+pub fn draw_kernels(
+    arguments: &PluginArguments,
+    plugins: &[PluginInfo],
+    file: &Path,
+) -> Result<(), Trouble> {
+    let of_laws = [
+        ("--set", arguments.set.is_empty()),
+        ("--vary", arguments.vary.is_none()),
+        ("--pressure", arguments.pressure.is_empty()),
+        ("--strain-rates", arguments.strain_rates.is_empty()),
+        ("--strain", arguments.strain.is_none()),
+    ];
+    if let Some((option, _)) = of_laws.iter().find(|(_, left_out)| !left_out) {
+        return Err(format!("{option} is for laws, not kernels").into());
+    }
+    let kernels = plugins.iter().map(|p| kernels::kernel(p.name));
+    let kernels = kernels.collect::<Result<Vec<_>, _>>();
+    save(&panels(&kernels.map_err(|e| e.to_string())?), file)
+}
+
+fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
+    let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| Plot {
+        x_label: "r/h [1]".into(),
+        y_label: label.into(),
+        series: kernels.iter().map(|k| curve(&**k, of)).collect(),
+        ..Plot::default()
+    };
+    Panels(vec![
+        panel("w h² [1]", &|k, q| k.normalisation(DIMENSION) * k.value(q)),
+        panel("−∂w/∂r h³ [1]", &|k, q| {
+            -k.normalisation(DIMENSION) * k.derivative(q)
+        }),
+    ])
+}
+
+fn curve(kernel: &dyn Kernel, of: &dyn Fn(&dyn Kernel, f64) -> f64) -> Series {
+    let end = kernel.support();
+    let along = (0..=POINTS).map(|k| end * k as f64 / POINTS as f64);
+    Series::line(kernel.name(), along.map(|q| [q, of(kernel, q)]).collect())
 }

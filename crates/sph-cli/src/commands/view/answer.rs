@@ -10,7 +10,6 @@ use crate::commands::file_list::{names, read_summary};
 
 const PAGE: &str = include_str!("../../../templates/view.html");
 
-/// An answer.
 pub struct Answer {
     /// Number and word.
     pub status: &'static str,
@@ -30,13 +29,11 @@ const KINDS: [(&str, &str); 6] = [
 ];
 
 impl Answer {
-    /// A content of a kind.
     fn found(kind: &'static str, body: impl Into<Vec<u8>>) -> Self {
         let (status, body) = ("200 OK", body.into());
         Answer { status, kind, body }
     }
 
-    /// A refusal, for its reason.
     fn refused(status: &'static str) -> Self {
         let (kind, body) = ("text/plain; charset=utf-8", format!("{status}\n").into());
         Answer { status, kind, body }
@@ -89,7 +86,6 @@ fn inside(folder: &Path, name: &str) -> Option<PathBuf> {
     real.filter(|real| real.starts_with(folder))
 }
 
-/// A file of the folder.
 fn file(path: &str, folder: &Path) -> Answer {
     let name = path.strip_prefix("/files/").and_then(decoded);
     let name = name.unwrap_or_default();
