@@ -68,8 +68,7 @@ pub struct OpenScene {
 
 pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
     let parse = |text: &String| {
-        let parsed = Override::parse(text);
-        parsed.map_err(|p| format!("--set {text}: {}", p.message).into())
+        Override::parse(text).map_err(|p| format!("--set {text}: {}", p.message).into())
     };
     set.iter().map(parse).collect()
 }
@@ -107,9 +106,8 @@ pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
 /// Mistakes of the scene with their places.
 pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
-    let allowed = allowed(&arguments.allow_path)?;
     Ok(OpenScene {
-        scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
+        scene: read(Source::new(text, file, &overrides).allowing(allowed(&arguments.allow_path)?))?,
         stem: stem(Path::new(file)).to_string(),
         shown: file.to_string(),
         _unpacked: None,

@@ -96,8 +96,7 @@ fn of_one<const D: usize, F: Kind + Send, K: Kind + Send>(
     DerivedStage {
         access: Access::none().here(from).writes(field),
         formula: Box::new(move |free| {
-            let values = free.get(from)?.iter().map(formula).collect();
-            Ok(free.put(field, values)?)
+            Ok(free.put(field, free.get(from)?.iter().map(formula).collect())?)
         }),
     }
 }

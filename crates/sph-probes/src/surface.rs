@@ -107,7 +107,6 @@ fn outward<const D: usize>(world: &World<D>) -> Result<Vec<Option<Vect<D>>>, Ste
         for contact in rows.contacts {
             gradient -= contact.gradient * share;
         }
-        let normal = || -gradient.try_normalize(0.0).unwrap_or_else(Vect::zeros);
-        (share < FULL).then(normal)
+        (share < FULL).then(|| -gradient.try_normalize(0.0).unwrap_or_else(Vect::zeros))
     })
 }

@@ -169,8 +169,7 @@ impl Results {
         }
         let mut found = BTreeMap::new();
         for series in &self.series {
-            let points = self.convergence(&series.variants, self.judged());
-            for pair in points.windows(2) {
+            for pair in self.convergence(&series.variants, self.judged()).windows(2) {
                 let orders = Orders::from_points(&[pair[0].1, pair[1].1]);
                 found.insert(pair[1].0.clone(), orders.main());
             }

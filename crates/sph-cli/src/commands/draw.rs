@@ -28,8 +28,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
         return Err(format!("--apart {wrong}: expected a distance above zero").into());
     }
-    let slice = optional("slice", &arguments.slice, "m")?;
-    let how = (apart, slice);
+    let how = (apart, optional("slice", &arguments.slice, "m")?);
     let lines = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path)?;
     report(&format!("{lines} lines"), path);
     Ok(())
@@ -94,8 +93,7 @@ pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
 
 /// The file of the picture, if it can be one.
 pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
-    let kind = out.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    match kinds.contains(&kind) {
+    match kinds.contains(&out.extension().and_then(|e| e.to_str()).unwrap_or_default()) {
         true => Ok(out),
         false => Err(Trouble::usage(format!(
             "--{option} {}: it must end in .{}",

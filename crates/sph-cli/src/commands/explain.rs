@@ -160,6 +160,5 @@ fn stage_text(k: usize, stage: &StageUse) -> String {
         ("writes", &stage.writes),
     ];
     let some = all.into_iter().filter(|(_, fields)| !fields.is_empty());
-    let rows = some.map(|(name, fields)| row(name, fields.join(", ")));
-    text + &columns(5, rows)
+    text + &columns(5, some.map(|(name, fields)| row(name, fields.join(", "))))
 }

@@ -58,8 +58,7 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
 }
 
 pub fn read_summary(folder: &Path) -> Option<Json> {
-    let text = std::fs::read_to_string(folder.join(SUMMARY)).ok()?;
-    serde_json::from_str(&text).ok()
+    serde_json::from_str(&std::fs::read_to_string(folder.join(SUMMARY)).ok()?).ok()
 }
 
 /// Names of the files of a kind in a folder, in the order of their numbers.

@@ -50,8 +50,7 @@ fn pages() -> Vec<(String, Vec<u8>)> {
     whole.build();
     let mut pages = vec![("sph".to_string(), page(whole.clone()))];
     for command in whole.get_subcommands() {
-        let name = format!("sph-{}", command.get_name());
-        pages.push((name, page(command.clone())));
+        pages.push((format!("sph-{}", command.get_name()), page(command.clone())));
     }
     pages
 }

@@ -84,8 +84,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         Ok(AnyScene::Grains(loaded)) => {
             let files = loaded.files();
             let placed = files.iter().filter_map(|(key, file)| {
-                let path = loaded.source.resolve(key, file).ok()?;
-                Some((file.as_str(), path))
+                Some((file.as_str(), loaded.source.resolve(key, file).ok()?))
             });
             return copied(placed, folder);
         }

@@ -29,8 +29,7 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
         return Ok(());
     };
     let kind = find_kind(&kinds, kind)?;
-    let names = arguments.names.iter();
-    let plugins = names.map(|name| find_plugin(kind, name));
+    let plugins = arguments.names.iter().map(|name| find_plugin(kind, name));
     let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
     if let Some(file) = &arguments.picture {
         return match kind.name {
@@ -150,8 +149,7 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
     let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!(", {unit}"));
     let mut text = format!("  {name} ({kind}{unit}; {default})\n");
     text.push_str(&paragraph(6, WIDTH, &parameter.meaning));
-    let choices = snippet::choices_of(schema, name);
-    for (k, choice) in choices.iter().enumerate() {
+    for (k, choice) in snippet::choices_of(schema, name).iter().enumerate() {
         let lead = if k == 0 { "one of " } else { "or " };
         let colon = if choice.meaning.is_empty() { "" } else { ": " };
         let line = format!("{lead}{}{colon}{}", choice.value, choice.meaning);

@@ -39,8 +39,7 @@ fn read(shipped: &Shipped) -> Result<AnyScene, String> {
         Content::File(file) => (read_text(file)?, file.display().to_string()),
         Content::CompiledIn(text) => ((*text).to_string(), format!("{}.toml", shipped.name)),
     };
-    let scene = scene_file::read(Source::new(&text, &file, &[]));
-    scene.map_err(|trouble| match trouble {
+    scene_file::read(Source::new(&text, &file, &[])).map_err(|trouble| match trouble {
         Trouble::Scene(all) => diagnostics::render(&all, false),
         _ => "cannot be read".into(),
     })

@@ -44,9 +44,8 @@ fn one(located: &Mistake, colour: bool) -> String {
     let span = |range: Range<usize>| (d.file.clone(), range);
     let config = Config::new().with_color(colour);
     let config = config.with_index_type(IndexType::Byte);
-    let told = if d.path.is_empty() { "here" } else { &d.path };
     let label = Label::new(span(place.clone()))
-        .with_message(told)
+        .with_message(if d.path.is_empty() { "here" } else { &d.path })
         .with_color(Color::Red);
     // A kind of one's own is coloured even where colours are off.
     let kind = match colour {

@@ -119,8 +119,7 @@ impl Watcher {
 
     fn print(&self, progress: &Progress, meter: &Meter) {
         let share = progress.time / progress.end;
-        let text = line(progress, meter, self.noun);
-        self.display.show(share, &text);
+        self.display.show(share, &line(progress, meter, self.noun));
     }
 }
 

@@ -128,8 +128,7 @@ impl<const D: usize> Probe<D> for BedLevels {
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
         let bed = self.bed(world)?;
         let row = |k: usize| {
-            let at = bed.grid.position(k);
-            let mut row = at[..D - 1].to_vec();
+            let mut row = bed.grid.position(k)[..D - 1].to_vec();
             row.extend([bed.level(k), bed.lift[k], bed.shields(k)]);
             row.extend(&bed.transport[k][..D - 1]);
             row

@@ -109,8 +109,7 @@ impl MeanProfile {
     }
 
     fn sums(&self) -> Result<MutexGuard<'_, Vec<f64>>, StepError> {
-        let failed = |_| refused("a thread failed");
-        self.sums.lock().map_err(failed)
+        self.sums.lock().map_err(|_| refused("a thread failed"))
     }
 
     fn check<const D: usize>(&self) -> Result<(), StepError> {

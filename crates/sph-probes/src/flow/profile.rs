@@ -83,8 +83,7 @@ fn fitted_velocity<const D: usize>(
         let weight = volume * world.kernel.at(r).0;
         let basis = DVector::from_fn(D + 1, |k, _| if k == 0 { 1.0 } else { apart[k - 1] / h });
         matrix.ger(weight, &basis, &basis, 1.0);
-        let u = DVector::from_fn(D, |k, _| u[k]);
-        right.ger(weight, &basis, &u, 1.0);
+        right.ger(weight, &basis, &DVector::from_fn(D, |k, _| u[k]), 1.0);
         true
     };
     let mut some = false;

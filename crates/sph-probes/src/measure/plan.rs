@@ -173,8 +173,7 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
         let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
         let columns = plan.columns.iter().enumerate();
         let one = |(k, column): (usize, &PlannedColumn)| {
-            let unit = column.unit.or(known(k)).unwrap_or("1");
-            ProbeColumn::named(&column.suffix, unit)
+            ProbeColumn::named(&column.suffix, column.unit.or(known(k)).unwrap_or("1"))
         };
         let mut all: Vec<_> = columns.map(one).collect();
         if plan.fitted.is_some() {

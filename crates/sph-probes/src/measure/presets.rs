@@ -200,8 +200,7 @@ impl Preset for Front {
             Direction::Forward => (Reduce::Quantile(share), 0.5),
             Direction::Backward => (Reduce::QuantileDown(share), -0.5),
         };
-        let along = AXES[self.axis as usize];
-        let front = PlannedColumn::new("", along, reduce).and_spacings(spacings);
+        let front = PlannedColumn::new("", AXES[self.axis as usize], reduce).and_spacings(spacings);
         let lower = |height: f64| below(AXES[dimension - 1], height);
         Plan {
             conditions: self.below.map(lower).into_iter().collect(),

@@ -188,12 +188,10 @@ impl<const D: usize> Probe<D> for Interface {
         let (mut z, mut above): (f64, Option<(f64, f64)>) = (top + step, None);
         // Down from above until the side changes, then bisect.
         while z > bottom - step {
-            let here = excess(z);
-            match (above, here) {
+            match (above, excess(z)) {
                 (Some((over, before)), Some(now)) if (before >= 0.0) != (now >= 0.0) => {
                     let same = |e: f64| (e >= 0.0) == (before >= 0.0);
-                    let crossing = bisected(over, z, |z| excess(z).is_some_and(same));
-                    return Ok(vec![crossing]);
+                    return Ok(vec![bisected(over, z, |z| excess(z).is_some_and(same))]);
                 }
                 (_, Some(now)) => above = Some((z, now)),
                 _ => {}

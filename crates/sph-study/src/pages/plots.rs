@@ -30,8 +30,7 @@ pub fn work_precision(results: &Results) -> Option<Plot> {
     let time_and_error = |names: &[String]| -> Vec<[f64; 2]> {
         let point = |name: &String| {
             let variant = results.variant(name)?;
-            let error = variant.error(results.judged())?;
-            Some([variant.wall_seconds.min?, error])
+            Some([variant.wall_seconds.min?, variant.error(results.judged())?])
         };
         names.iter().filter_map(point).collect()
     };

@@ -77,8 +77,7 @@ fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
 
 /// The least time, with the spread where there are several.
 fn seconds(v: &VariantResult) -> Option<String> {
-    let least = v.wall_seconds.min?;
-    let text = match least {
+    let text = match v.wall_seconds.min? {
         s if s < 100.0 => format!("{} s", number::plain((s * 1e3).round() / 1e3)),
         s => number::duration(s),
     };

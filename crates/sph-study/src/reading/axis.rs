@@ -101,8 +101,7 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, ScenePr
                 return Err(problem(".labels", why));
             }
             let choice = |(k, value): (usize, &Value)| {
-                let at = format!("{at}.values[{k}]");
-                let set = set(key, value.clone(), at)?;
+                let set = set(key, value.clone(), format!("{at}.values[{k}]"))?;
                 let bare = label(value);
                 let given = labels.map(|l| l[k].clone());
                 Ok(Choice {

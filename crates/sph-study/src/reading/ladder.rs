@@ -136,8 +136,7 @@ fn one(
     let labels: Vec<String> = values.choices.iter().map(|c| c.label.clone()).collect();
     let must = given.must.as_ref().map(|must| {
         let must = label(must);
-        let place = labels.iter().position(|l| *l == must);
-        place.ok_or_else(|| {
+        labels.iter().position(|l| *l == must).ok_or_else(|| {
             let known = labels.join(", ");
             let why = format!("the axis has no `{must}` (it has: {known})");
             problem(".must", why)
@@ -146,8 +145,7 @@ fn one(
     let must = must.transpose()?;
     let named = given.scene.as_ref().or(file.scene.as_ref());
     let missing = || problem("", "neither the axis nor the study has a scene".into());
-    let scene = find(named.ok_or_else(missing)?);
-    let scene = scene.map_err(|why| problem(".scene", why))?;
+    let scene = find(named.ok_or_else(missing)?).map_err(|why| problem(".scene", why))?;
     let errors = given.error.paths(&format!("{at}.error"));
     let errors: Vec<String> = errors.into_iter().map(|e| e.0).collect();
     let (judge, path) = match given.judge.is_empty() {

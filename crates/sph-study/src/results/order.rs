@@ -16,10 +16,9 @@ impl Orders {
     pub fn from_points(points: &[[f64; 2]]) -> Self {
         let logs: Vec<[f64; 2]> = points.iter().map(|p| p.map(f64::ln)).collect();
         let order = |p: &[[f64; 2]]| (p[1][1] - p[0][1]) / (p[1][0] - p[0][0]);
-        let finest = logs.len().checked_sub(3).map(|k| &logs[k..]);
         Orders {
             between: logs.windows(2).map(order).collect(),
-            finest_three: finest.map(slope),
+            finest_three: logs.len().checked_sub(3).map(|k| &logs[k..]).map(slope),
         }
     }
 

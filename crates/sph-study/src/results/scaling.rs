@@ -52,8 +52,7 @@ impl Scale {
             let all: Vec<&VariantResult> = all.collect();
             let cost = |v: &&VariantResult| Some([v.size.particles as f64, v.cost(scaling.cost)?]);
             let points = all.iter().filter_map(cost);
-            let points = points.filter(|p| p.iter().all(|x| *x > 0.0));
-            let mut points: Vec<[f64; 2]> = points.collect();
+            let mut points: Vec<[f64; 2]> = points.filter(|p| p.iter().all(|x| *x > 0.0)).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             costs.push(SeriesCost::from_points(&one.name, points.clone()));
             if let (Some(between), Some(first)) = (&scaling.between, all.first()) {

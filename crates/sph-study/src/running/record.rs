@@ -179,8 +179,7 @@ impl Record {
     pub fn load(folder: &Path) -> Option<Self> {
         let file = folder.join(FILE);
         sph_io::readable(&file, LONGEST).ok()?;
-        let text = std::fs::read_to_string(file).ok()?;
-        serde_json::from_str(&text).ok()
+        serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()
     }
 
     /// Writes the record, all or nothing.

@@ -64,9 +64,8 @@ pub const QUANTITIES: [(&str, HealthNumber); 7] = [
 fn quantities(record: &Record) -> BTreeMap<&str, f64> {
     let errors = record.errors.iter();
     let errors = errors.map(|(name, error)| (name.as_str(), error.value));
-    let own = QUANTITIES.map(|(name, of)| (name, of(&record.health)));
     let known = errors
-        .chain(own)
+        .chain(QUANTITIES.map(|(name, of)| (name, of(&record.health))))
         .filter_map(|(name, value)| Some((name, value?)));
     known.collect()
 }

@@ -163,8 +163,7 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
             // Walls and lists: number by number, or not at all.
             false if column.values.len() == other.values.len() => {
                 let rows: Vec<_> = (0..column.values.len() / per).map(|k| (k, k)).collect();
-                let alone = Table::default();
-                found.push(difference(file, column, other, &rows, &alone));
+                found.push(difference(file, column, other, &rows, &Table::default()));
             }
             false => remarks.push(format!(
                 "{file}: `{}` has {} numbers and {}",

@@ -143,8 +143,7 @@ pub struct Choice {
 pub fn choices_of(schema: &Json, name: &str) -> Vec<Choice> {
     let parameter = &schema["properties"][name];
     let node = node_of(parameter, schema);
-    let entry = node_of(&node["items"], schema);
-    let places = [parameter, node, entry].into_iter();
+    let places = [parameter, node, node_of(&node["items"], schema)].into_iter();
     let mut found = places.map(|place| listed(place, schema));
     let found = found.find(|choices| !choices.is_empty());
     found.unwrap_or_default()

@@ -41,8 +41,7 @@ pub fn thinned(file: &Path, column: &str) -> Result<String> {
             let mut kept: Vec<_> = ends.iter_mut().filter_map(Option::take).collect();
             kept.sort_by_key(|(k, ..)| *k);
             kept.dedup_by_key(|(k, ..)| *k);
-            let kept = kept.into_iter();
-            text.extend(kept.map(|(.., line)| format!("\n{line}")));
+            text.extend(kept.into_iter().map(|(.., line)| format!("\n{line}")));
         }
     }
     text.push('\n');
