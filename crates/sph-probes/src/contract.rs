@@ -44,12 +44,6 @@ impl ProbeColumn {
     }
 }
 
-/// The error of a probe that cannot measure.
-pub(crate) fn refused(stage: &str, reason: impl Into<String>) -> StepError {
-    let (stage, reason) = (stage.into(), reason.into());
-    StepError::Stage { stage, reason }
-}
-
 /// The scene for probes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProbeScene<'a> {

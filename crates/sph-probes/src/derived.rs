@@ -2,7 +2,7 @@
 //!
 //! A scene without them has no column, no stage and no velocity gradient for their sake.
 
-use sph_core::{Access, Declares, Field, Kind, Stage, StepError, Store, Tensor, Vect, fields};
+use sph_core::{Access, Field, Kind, Stage, Tensor, Vect, fields, stage};
 use sph_neighbours::World;
 
 sph_core::fields! {
@@ -41,85 +41,53 @@ pub fn derived_fields() -> impl Iterator<Item = &'static str> {
 
 /// The stages of the fields that are `shown`, and no others.
 pub fn derived_stages<const D: usize>(shown: &[String]) -> Vec<Box<dyn Stage<World<D>>>> {
-    let is_shown = |stage: &DerivedStage<D>| shown.iter().any(|s| s == stage.name_of_field());
-    let wanted = all().into_iter().filter(is_shown);
-    wanted.map(|stage| Box::new(stage) as _).collect()
+    let gradient = fields::VELOCITY_GRADIENT;
+    let in_plane = |g: &Gradient<D>| g[(1, 0)] - g[(0, 1)];
+    let in_space = |g: &Gradient<D>| {
+        Vect::from_fn(|k, _| g[((k + 2) % 3, (k + 1) % 3)] - g[((k + 1) % 3, (k + 2) % 3)])
+    };
+    let vorticity = match D {
+        2 => of_one("vorticity", gradient, VORTICITY, in_plane),
+        _ => of_one("vorticity", gradient, VORTICITY_IN_SPACE, in_space),
+    };
+    let access = Access::none()
+        .here((fields::VISCOSITY, fields::STRAIN_RATE))
+        .writes(SHEAR_STRESS);
+    let shear_stress = stage("shear stress", access, |world: &mut World<D>| {
+        let rates = world.free.get(fields::STRAIN_RATE)?;
+        let both = world.free.get(fields::VISCOSITY)?.iter().zip(rates);
+        let stress = both.map(|(eta, rate)| eta * rate).collect();
+        Ok(world.free.put(SHEAR_STRESS, stress)?)
+    });
+    let all: [Box<dyn Stage<World<D>>>; 4] = [
+        of_one("speed", fields::VELOCITY, SPEED, |u: &Vect<D>| u.norm()),
+        vorticity,
+        // |Ω|² − |S|² = −Σ G_ij G_ji, since the mixed terms cancel.
+        of_one("q criterion", gradient, Q_CRITERION, |g: &Gradient<D>| {
+            -0.5 * (g * g).trace()
+        }),
+        Box::new(shear_stress),
+    ];
+    let all = all.into_iter();
+    all.filter(|stage| shown.iter().any(|s| s == stage.access().writes[0].name))
+        .collect()
 }
-
-/// Writes a field from others of the same particles.
-type Formula<const D: usize> = Box<dyn Fn(&mut Store<D>) -> Result<(), StepError> + Send>;
 
 /// ∇u, 1/s.
 type Gradient<const D: usize> = <Tensor as Kind>::Item<D>;
 
-/// The stage of one field.
-struct DerivedStage<const D: usize> {
-    access: Access,
-    formula: Formula<D>,
-}
-
-fn all<const D: usize>() -> [DerivedStage<D>; 4] {
-    let gradient = fields::VELOCITY_GRADIENT;
-    let vorticity = match D {
-        2 => of_one(gradient, VORTICITY, |g: &Gradient<D>| g[(1, 0)] - g[(0, 1)]),
-        _ => of_one(gradient, VORTICITY_IN_SPACE, |g: &Gradient<D>| {
-            Vect::from_fn(|k, _| g[((k + 2) % 3, (k + 1) % 3)] - g[((k + 1) % 3, (k + 2) % 3)])
-        }),
-    };
-    let viscosity = Access::none().here(fields::VISCOSITY);
-    let shear_stress = DerivedStage {
-        access: viscosity.here(fields::STRAIN_RATE).writes(SHEAR_STRESS),
-        formula: Box::new(|free| {
-            let rates = free.get(fields::STRAIN_RATE)?;
-            let both = free.get(fields::VISCOSITY)?.iter().zip(rates);
-            let stress = both.map(|(eta, rate)| eta * rate).collect();
-            Ok(free.put(SHEAR_STRESS, stress)?)
-        }),
-    };
-    [
-        of_one(fields::VELOCITY, SPEED, |u: &Vect<D>| u.norm()),
-        vorticity,
-        // |Ω|² − |S|² = −Σ G_ij G_ji, since the mixed terms cancel.
-        of_one(gradient, Q_CRITERION, |g: &Gradient<D>| {
-            -0.5 * (g * g).trace()
-        }),
-        shear_stress,
-    ]
-}
-
 /// The stage of a field that follows from one other.
 fn of_one<const D: usize, F: Kind + Send, K: Kind + Send>(
+    name: &'static str,
     from: Field<F>,
     field: Field<K>,
     formula: fn(&F::Item<D>) -> K::Item<D>,
-) -> DerivedStage<D> {
-    DerivedStage {
-        access: Access::none().here(from).writes(field),
-        formula: Box::new(move |free| {
-            Ok(free.put(field, free.get(from)?.iter().map(formula).collect())?)
-        }),
-    }
-}
-
-impl<const D: usize> DerivedStage<D> {
-    fn name_of_field(&self) -> &'static str {
-        self.access.writes[0].name
-    }
-}
-
-impl<const D: usize> Declares for DerivedStage<D> {
-    fn name(&self) -> String {
-        self.name_of_field().replace('_', " ")
-    }
-    fn access(&self) -> Access {
-        self.access.clone()
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for DerivedStage<D> {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
-        (self.formula)(&mut world.free)
-    }
+) -> Box<dyn Stage<World<D>>> {
+    let access = Access::none().here(from).writes(field);
+    Box::new(stage(name, access, move |world: &mut World<D>| {
+        let values = world.free.get(from)?.iter().map(formula).collect();
+        Ok(world.free.put(field, values)?)
+    }))
 }
 
 #[cfg(test)]

@@ -12,7 +12,6 @@ use sph_run::CHECKPOINT;
 use crate::terminal::{CommandOutput, Trouble, table};
 use difference::{Difference, Table, differences};
 
-/// Common results of two folders, and their differences.
 #[derive(Default)]
 struct Comparison {
     /// Of every column that both have, in the order of the files.

@@ -41,7 +41,6 @@ pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     Ok(told)
 }
 
-/// Adds the shares and messages of several machines.
 fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         let why = "--ranks splits scenes of particles, and this is one of grains";
@@ -113,7 +112,6 @@ fn suited(choices: &[(&'static str, &'static str)]) -> String {
     "\nleft to the flow, with the reason\n".to_string() + &columns(2, rows)
 }
 
-/// Every plugin in a line, and its parameters below it.
 fn plugins(plugins: &[PluginInForce]) -> String {
     let rows = plugins.iter().map(|p| {
         let names = [&p.kind, &p.name, &p.provider].map(String::clone);

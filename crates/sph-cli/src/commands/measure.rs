@@ -92,7 +92,6 @@ fn quantity(frame: &Snapshot, name: &str) -> Result<Column, Trouble> {
     }
 }
 
-/// The reductions and quantiles of a column over the particles of a phase within bounds.
 fn reduced(
     frame: &Snapshot,
     column: &Column,

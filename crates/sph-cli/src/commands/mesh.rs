@@ -8,7 +8,6 @@ use sph_scene::{Facets, Topology, sense};
 
 use crate::terminal::{CommandOutput, Trouble, columns, headed, remarks, row};
 
-/// Openings that are shown.
 const SHOWN: usize = 10;
 /// A surface whose [`sense`] is smaller has no inside.
 const NO_INSIDE: f64 = 0.02;

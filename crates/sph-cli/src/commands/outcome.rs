@@ -94,7 +94,6 @@ fn error(error: &ErrorEntry) -> Vec<String> {
     vec![value, norm, against, error.samples.to_string()]
 }
 
-/// Number of terms in the report.
 const TERMS: usize = 6;
 
 /// The particle, the terms that acted there, remedies, and files to look at.

@@ -44,7 +44,6 @@ pub fn json(value: &Json) {
     out(&escaped(&format!("{value:#}")));
 }
 
-/// True if stderr is read by a person.
 pub fn terminal() -> bool {
     std::io::stderr().is_terminal()
 }

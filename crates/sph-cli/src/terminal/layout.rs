@@ -31,7 +31,6 @@ pub fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![name.to_string(), value.into()]
 }
 
-/// Names beside their values with units.
 pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Vec<Vec<String>> {
     let value = |x: f64, unit: &T| number::plain(x) + &unit_suffix(unit.as_ref());
     let row = |(name, x, unit): &(T, f64, T)| row(name.as_ref(), value(*x, unit));
@@ -93,7 +92,6 @@ pub fn remarks(remarks: &[String]) -> String {
     remarks.iter().map(item).collect()
 }
 
-/// Texts, each broken between words.
 pub fn paragraphs<T: AsRef<str>>(indent: usize, texts: &[T]) -> String {
     let broken = texts
         .iter()

@@ -85,7 +85,6 @@ pub struct Watcher {
 }
 
 impl Watcher {
-    /// A watcher that stops the run once the flag is raised, and counts something.
     pub fn new(quiet: bool, start: String, noun: &'static str, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
         Watcher {
@@ -166,7 +165,6 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
     format!("t = {time} of {end} s{left}  Δt {dt:.1e} s ({limiter})  {speed}  step {step}")
 }
 
-/// Rates, averaged over the last seconds.
 struct Meter {
     at: Instant,
     time: f64,

@@ -51,7 +51,6 @@ fn sentence(study: &Study, variant: &Variant, record: &Record) -> String {
 struct State {
     started: Instant,
     told: Instant,
-    /// Settled variants.
     settled: usize,
     /// Work of every variant that has to run, by name.
     cost: BTreeMap<String, f64>,
@@ -61,17 +60,13 @@ struct State {
 }
 
 impl<'s> Watcher<'s> {
-    /// A watcher that stops the study once the flag is raised.
     pub fn new(quiet: bool, study: &'s Study, options: &Options, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
         let open = to_run(study, options);
         let total = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
-        let (title, all, out) = (
-            &study.file.title,
-            study.variants.len(),
-            options.out.display(),
-        );
+        let (title, all) = (&study.file.title, study.variants.len());
+        let out = options.out.display();
         display.say(&format!(
             "{title}: {all} variants, {to_run} to run, into {out}"
         ));
@@ -93,7 +88,6 @@ impl<'s> Watcher<'s> {
         }
     }
 
-    /// True if a variant has to run.
     pub fn has_to_run(&self, k: usize) -> bool {
         self.open.get(k).is_some_and(|open| *open)
     }

@@ -4,7 +4,6 @@ use sph_core::bed::Bed;
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
 
-use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Levels of a bed, its load, and Shields numbers.
@@ -41,7 +40,7 @@ impl BedLevels {
         found.ok_or_else(|| {
             let near = suggestion(&self.wall, beds.iter().map(name));
             let reason = format!("no wall `{}` is `erodible`{near}", self.wall);
-            refused("probe `bed-levels`", reason)
+            StepError::stage("probe `bed-levels`", reason)
         })
     }
 

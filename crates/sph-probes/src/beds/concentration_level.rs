@@ -3,7 +3,6 @@
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
 
-use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// The highest place at which the concentration of suspended grains comes up to a value, m: the interface below clear fluid, or
@@ -38,7 +37,7 @@ impl<const D: usize> Probe<D> for ConcentrationLevel {
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let concentration = world.free.get(fields::CONCENTRATION).map_err(|_| {
             let reason = "no fluid of this scene carries grains: expected `[suspension.PLUGIN]`";
-            refused("probe `concentration-level`", reason)
+            StepError::stage("probe `concentration-level`", reason)
         })?;
         let position = world.free.get(fields::POSITION)?;
         let mass = world.free.get(fields::MASS)?;

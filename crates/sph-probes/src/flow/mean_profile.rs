@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
-use crate::{Needs, Probe, ProbeColumn, ProbeEntry, contract};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -64,11 +64,9 @@ pub struct MeanProfile {
     sums: Mutex<Vec<f64>>,
 }
 
-/// Adds the values of a particle to a list.
 type Reader<'a> = Box<dyn Fn(usize, &mut Vec<f64>) + 'a>;
 
 impl MeanProfile {
-    /// Numbers of a layer.
     fn components<const D: usize>(&self) -> usize {
         if self.field.is_some() { 1 } else { D }
     }
@@ -98,7 +96,6 @@ impl MeanProfile {
         (0.0..1.0).contains(&share).then(layer)
     }
 
-    /// Reads the values of a particle into `into`.
     fn reader<'a, const D: usize>(&self, world: &'a World<D>) -> Result<Reader<'a>, StepError> {
         let Some(name) = &self.field else {
             let velocity = world.free.get(fields::VELOCITY)?;
@@ -138,7 +135,6 @@ impl MeanProfile {
         }
     }
 
-    /// The reference at a distance.
     fn expected(&self, distance: f64) -> Option<f64> {
         let rows = self.reference.iter().map(|[place, value]| (*place, *value));
         let (places, values): (Vec<f64>, Vec<f64>) = rows.unzip();
@@ -161,7 +157,7 @@ impl MeanProfile {
 }
 
 fn refused(reason: &str) -> StepError {
-    contract::refused("probe `mean-profile`", reason)
+    StepError::stage("probe `mean-profile`", reason)
 }
 
 impl<const D: usize> Probe<D> for MeanProfile {

@@ -3,7 +3,6 @@
 use sph_core::{StepError, Vect, fields, plugin, suggestion};
 use sph_neighbours::{World, cross};
 
-use crate::contract::refused;
 use crate::sampling::mean_around;
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
@@ -64,7 +63,7 @@ pub(crate) fn wall_number<const D: usize>(
     let names = &world.walls.names;
     names.iter().position(|n| n == wall).ok_or_else(|| {
         let near = suggestion(wall, names.iter().map(String::as_str));
-        refused(stage, format!("there is no wall `{wall}`{purpose}{near}"))
+        StepError::stage(stage, format!("there is no wall `{wall}`{purpose}{near}"))
     })
 }
 
@@ -174,7 +173,7 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
         let pore = world.free.get(fields::PORE_PRESSURE).map_err(|_| {
             let reason =
                 "there is no pore pressure without an effective one: [effective-pressure.PLUGIN]";
-            refused("probes", reason)
+            StepError::stage("probes", reason)
         })?;
         let x = carried(world, point::<D>(&self.at), self.follows.as_deref())?;
         let own = |j: usize, d: &Vect<D>| [pore[j] + self.density * world.gravity.dot(d)].into();

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::contract::refused;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// E(k) = ½ Σ |û|²/(2π/L) over the wave vectors whose length, in 2π/L, rounds to n, k = 2πn/L: the curve, up to the wave of two
@@ -28,11 +27,9 @@ pub struct EnergySpectrum {
     pub points: usize,
 }
 
-/// A complex number.
 type Complex = [f64; 2];
 
 impl EnergySpectrum {
-    /// The length of the sides.
     fn side<const D: usize>(&self, world: &World<D>) -> Result<f64, StepError> {
         let domain = &world.domain;
         let side = domain.length(0);
@@ -44,7 +41,7 @@ impl EnergySpectrum {
                 "a box that is periodic along all axes, with sides of one length, was expected: `[numerics.periodic]`"
             }
         };
-        Err(refused("probe `energy-spectrum`", reason))
+        Err(StepError::stage("probe `energy-spectrum`", reason))
     }
 
     /// Velocities at the points, the first axis running fastest.

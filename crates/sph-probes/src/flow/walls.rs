@@ -3,7 +3,6 @@
 use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::{WallForce, World, cross};
 
-use crate::contract::refused;
 use crate::flow::point::{point, wall_number};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
@@ -177,7 +176,7 @@ impl<const D: usize> Probe<D> for MooringProbe {
         let pull = lines.get(self.line as usize).ok_or_else(|| {
             let (wall, count, line) = (&self.wall, lines.len(), self.line);
             let reason = format!("`{wall}` has {count} lines: there is no number {line}");
-            refused(stage, reason)
+            StepError::stage(stage, reason)
         })?;
         let mut values: Vec<f64> = pull.force.iter().copied().collect();
         values.extend([pull.force.norm(), pull.anchor]);
@@ -217,7 +216,7 @@ impl<const D: usize> Probe<D> for PassedProbe {
         if let Some(wall) = self.wall.as_ref().filter(|w| open().all(|n| n != *w)) {
             let near = suggestion(wall, open());
             let reason = format!("there is no open wall `{wall}`{near}");
-            return Err(refused("probe `passed`", reason));
+            return Err(StepError::stage("probe `passed`", reason));
         }
         let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
         let mut sums = vec![0.0; 3];

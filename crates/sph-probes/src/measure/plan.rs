@@ -35,7 +35,6 @@ pub(crate) struct PlannedColumn {
 }
 
 impl PlannedColumn {
-    /// A reduced quantity as it is.
     pub fn new(suffix: &str, name: &str, reduce: impl Into<Reduce>) -> Self {
         let of = Quantity::named(name);
         PlannedColumn {
@@ -48,13 +47,11 @@ impl PlannedColumn {
         }
     }
 
-    /// With so many spacings more.
     pub fn and_spacings(mut self, spacings: f64) -> Self {
         self.spacings = spacings;
         self
     }
 
-    /// In a unit of its own.
     pub fn in_unit(mut self, unit: &'static str) -> Self {
         self.unit = Some(unit);
         self
@@ -96,7 +93,6 @@ impl<'a> Plan<'a> {
 
 /// Parameters of which a measurement is made.
 pub(crate) trait Preset: Send {
-    /// The measurement in so many dimensions.
     fn plan(&self, dimension: usize) -> Plan<'_>;
 }
 
@@ -109,7 +105,6 @@ pub(crate) struct MeasuringProbe<P> {
 }
 
 impl<P: Preset> MeasuringProbe<P> {
-    /// Of parameters.
     pub fn new(preset: P) -> Self {
         MeasuringProbe {
             preset,

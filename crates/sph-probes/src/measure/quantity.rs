@@ -3,8 +3,6 @@
 use sph_core::{Plain, StepError, fields, suggestion};
 use sph_neighbours::World;
 
-use crate::contract::refused;
-
 /// Quantities that are made of columns, with their units.
 const MADE: [(&str, &str); 6] = [
     ("x", "m"),
@@ -15,7 +13,6 @@ const MADE: [(&str, &str); 6] = [
     ("potential_energy", "J"),
 ];
 
-/// Names of the axes.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A quantity that every particle has, by its name: a column, of several components their magnitude (`pressure`), a
@@ -27,7 +24,6 @@ pub(crate) struct Quantity(String);
 pub(crate) type Values<'a> = (Box<dyn Fn(usize) -> f64 + 'a>, &'static str);
 
 impl Quantity {
-    /// A quantity by its name.
     pub fn named(name: &str) -> Self {
         Quantity(name.into())
     }
@@ -97,7 +93,7 @@ fn of_column<'a, const D: usize>(
     match component {
         Some(k) if k >= components => {
             let reason = format!("`{name}` has {components} components in this scene");
-            Err(refused("probes", reason))
+            Err(StepError::stage("probes", reason))
         }
         Some(k) => Ok((Box::new(move |i| values[i * components + k]), unit)),
         None if components == 1 => Ok((Box::new(move |i| values[i]), unit)),
@@ -118,5 +114,5 @@ fn unknown<const D: usize>(world: &World<D>, name: &str) -> StepError {
     let known: Vec<_> = columns.iter().copied().chain(made).collect();
     let known = known.join(", ");
     let reason = format!("there is no field `{name}` in this scene{near}; there are: {known}");
-    refused("probes", reason)
+    StepError::stage("probes", reason)
 }

@@ -3,7 +3,7 @@
 use sph_core::{StepError, fields, suggestion};
 use sph_neighbours::World;
 
-use crate::contract::{ProbeScene, refused};
+use crate::ProbeScene;
 
 /// Number of the phase that a probe names, in the scene's order of names; none if it names none.
 ///
@@ -43,7 +43,7 @@ impl<'a> CountedPhase<'a> {
             (_, Some(k)) => Ok(CountedPhase::Of(world.free.get(fields::PHASE)?, k)),
             (Some(name), None) => {
                 let reason = format!("the number of the phase `{name}` is not known yet");
-                Err(refused("probes", reason))
+                Err(StepError::stage("probes", reason))
             }
         }
     }

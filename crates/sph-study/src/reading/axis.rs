@@ -12,7 +12,6 @@ use crate::reading::file;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Set {
     pub value: Override,
-    /// Path in the study file.
     pub path: String,
 }
 
@@ -54,7 +53,6 @@ impl StudyAxis {
     }
 }
 
-/// Most axes of a study.
 const AXES: usize = 100;
 
 /// All axes of a study file.

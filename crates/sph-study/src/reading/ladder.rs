@@ -15,7 +15,6 @@ use crate::{
 /// Names of the axes to which the labels of such a study's variants belong.
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
-/// The axes of such a study as a table has them.
 pub fn columns() -> Vec<StudyAxis> {
     COLUMNS.map(|name| column(name, Vec::new())).to_vec()
 }

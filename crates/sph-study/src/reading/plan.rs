@@ -224,11 +224,9 @@ pub enum ReadError {
     Refused(#[from] Refused),
 }
 
-/// The typed content of a study file.
 fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
-    match typed(table) {
-        Ok(file) => Ok(file),
-        Err(RegistryError::Parameters(problems)) => Err(problems),
-        Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
-    }
+    typed(table).map_err(|error| match error {
+        RegistryError::Parameters(problems) => problems,
+        other => vec![SceneProblem::new("", other.to_string())],
+    })
 }

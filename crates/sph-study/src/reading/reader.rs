@@ -16,7 +16,6 @@ use crate::{Mistake, Refused, SceneText, Set, StudyAxis, StudyFile, Variant};
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";
 
-/// Input of a study besides its file.
 pub(crate) struct Inputs<'a> {
     pub name: String,
     pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
@@ -26,7 +25,6 @@ pub(crate) struct Inputs<'a> {
     pub only: &'a [String],
 }
 
-/// Makes variants from combinations.
 pub(crate) struct Reader<'a> {
     pub file: &'a StudyFile,
     pub source: &'a Source,

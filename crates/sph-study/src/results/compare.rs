@@ -12,17 +12,13 @@ use crate::Results;
 pub struct Comparison {
     /// Other differences: studies, machines, versions, threads.
     pub notes: Vec<String>,
-    /// Variants that both have.
     pub variants: Vec<Change>,
-    /// Variants of the first study only.
     pub only_in_first: Vec<String>,
-    /// Variants of the second study only.
     pub only_in_second: Vec<String>,
     /// Geometric mean of the ratios of wall seconds, second over first.
     pub wall_ratio: Option<f64>,
 }
 
-/// A variant in both studies.
 #[derive(Clone, Debug, Serialize)]
 pub struct Change {
     pub name: String,

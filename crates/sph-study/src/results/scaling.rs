@@ -22,7 +22,6 @@ pub struct Scale {
     pub fastest: Vec<FastestRange>,
 }
 
-/// The cost of a series against size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeriesCost {
     pub name: String,
@@ -32,7 +31,6 @@ pub struct SeriesCost {
     pub exponent: Option<f64>,
 }
 
-/// Sizes at which one competitor is the fastest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FastestRange {
     /// Labels on the axes that do not compete.

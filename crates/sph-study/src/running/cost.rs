@@ -26,7 +26,6 @@ pub enum Cost {
 }
 
 impl Cost {
-    /// As it stands in tables.
     pub fn name(self) -> &'static str {
         match self {
             Cost::Step => "time per step",

@@ -8,10 +8,8 @@ use sph_io::IoError;
 use crate::running::repeat;
 use crate::{Colour, Options, Record, Status, Study, Variant, Watcher, verdict};
 
-/// Results of running a study.
 #[derive(Debug)]
 pub struct Outcome {
-    /// One record per variant, in their order.
     pub records: Vec<Record>,
     /// True if it was stopped before all variants had run.
     pub stopped: bool,

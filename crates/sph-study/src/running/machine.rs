@@ -11,11 +11,9 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A computer, as far as run times depend on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
-    /// Model of the processor.
     pub cpu: String,
     /// Cores that this process may use.
     pub cores: usize,
-    /// Operating system and architecture.
     pub os: String,
 }
 

@@ -73,7 +73,6 @@ pub trait Watcher: Sync {
 /// A silent watcher.
 impl Watcher for () {}
 
-/// A variant to be run.
 pub(crate) struct Job<'a> {
     pub study: &'a Study,
     pub variant: &'a Variant,
@@ -83,7 +82,6 @@ pub(crate) struct Job<'a> {
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// The reason of a stop.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Asked,

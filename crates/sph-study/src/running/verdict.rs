@@ -20,7 +20,6 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// As it stands in tables.
     pub fn name(self) -> &'static str {
         match self {
             Colour::Green => "green",
@@ -33,13 +32,11 @@ impl Colour {
 /// A colour and the reason for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The colour.
     pub colour: Colour,
     /// Reasons for less than green; empty if there are none.
     pub why: String,
 }
 
-/// A number by which a run is judged.
 type HealthNumber = fn(&Health) -> Option<f64>;
 
 /// Quantities of every run for a verdict, besides the scene's references.

@@ -14,9 +14,7 @@ pub struct Table {
     pub keys: Vec<u64>,
     /// By row: the place of its particle, m.
     pub places: Vec<Vec<f64>>,
-    /// The time of a frame, s.
     pub time: Option<f64>,
-    /// True if the keys are times.
     pub over_time: bool,
 }
 
@@ -24,14 +22,12 @@ pub struct Column {
     pub name: String,
     /// SI unit, empty if none is known.
     pub unit: String,
-    /// Numbers per row.
     pub components: usize,
     /// Row after row.
     pub values: Vec<f64>,
 }
 
 impl Table {
-    /// A table over time.
     pub fn of_series(table: sph_io::Table) -> Self {
         let times = table.column("time").unwrap_or_default();
         let keys = times.iter().map(|t| t.to_bits()).collect();
@@ -107,7 +103,6 @@ pub struct Difference {
     file: String,
     column: String,
     unit: String,
-    /// True if all its bits are the same.
     pub same: bool,
     /// The largest |a − b|; infinite where one of them is no number.
     largest: f64,
@@ -243,7 +238,6 @@ impl Difference {
         self.same = same;
     }
 
-    /// A row of the table for people.
     pub fn row(&self) -> Vec<String> {
         let unit = unit_suffix(&self.unit);
         vec![

@@ -40,7 +40,6 @@ pub struct Theme {
 pub struct Entry {
     /// Run time by name.
     pub scenes: BTreeMap<String, String>,
-    /// Subject in a few words.
     pub shows: String,
     /// References and errors, Markdown.
     pub measured: Option<String>,
@@ -102,7 +101,6 @@ fn of_entry(entry: &Entry) -> String {
     ))
 }
 
-/// An item of a list, broken between words.
 fn item(text: &str) -> String {
     paragraph(2, WIDTH, text).replacen("  * ", "* ", 1)
 }
