@@ -1,7 +1,5 @@
 //! Probes of beds under water.
 
-mod bed_levels;
-mod concentration_level;
-mod eroded_mass;
+mod levels;
 mod lines;
 mod scour_map;

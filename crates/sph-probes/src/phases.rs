@@ -2,4 +2,3 @@
 
 pub(crate) mod level;
 pub(crate) mod phase;
-mod slope;

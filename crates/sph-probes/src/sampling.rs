@@ -5,7 +5,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_neighbours::World;
 
-use crate::surface::images_of;
+use crate::derived::images_of;
 
 /// The free particles within the support of a place, by number, with the way from them to it and V w.
 ///

@@ -1,8 +1,6 @@
 //! `study.json`: all that came out of a study.
 
 pub mod compare;
-pub mod frontier;
-pub mod order;
 pub mod scaling;
 pub mod variant_result;
 
@@ -11,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use sph_core::comma_list;
 
-use crate::results::order::pareto;
+use crate::results::variant_result::pareto;
 use crate::{
     Frontier, MeansPlot, Orders, Origin, Record, Scale, SeriesResult, Study, Variant, VariantResult,
 };

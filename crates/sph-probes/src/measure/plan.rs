@@ -5,8 +5,7 @@ use std::sync::OnceLock;
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use super::quantity::{AXES, Quantity};
-use super::reduction::{Reduce, WeightedValues};
+use super::quantity::{AXES, Quantity, Reduce, WeightedValues};
 use crate::phases::phase::{self, CountedPhase};
 use crate::{Needs, Probe, ProbeColumn, ProbeScene, norm};
 

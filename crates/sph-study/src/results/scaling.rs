@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use sph_core::{comma_list, number};
 
-use crate::results::order::slope;
+use crate::results::variant_result::slope;
 use crate::{Cost, Results, Scaling, VariantResult};
 
 /// A name with its particles and seconds, by size.
