@@ -199,7 +199,9 @@ fn unpacked(name: &str, data: &[Data]) -> Result<(String, Option<Scratch>), Stri
     let folder = Scratch::new(".sph-data-");
     let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
     let file = folder.path().join(format!("{name}.toml"));
-    shipped::unpack(data, folder.path())?;
+    shipped::unpack(data.iter().copied(), folder.path(), |f, data| {
+        std::fs::write(f, data)
+    })?;
     Ok((file.display().to_string(), Some(folder)))
 }
 

@@ -92,22 +92,27 @@ pub fn data_of(texts: Option<&[&str]>) -> Vec<Data> {
     DATA.iter().filter(mentioned).copied().collect()
 }
 
-/// Writes compiled-in data below a folder; returns the written files.
+/// Writes files below a folder by their paths there, but for those that are there already; returns the new ones.
 ///
 /// # Errors
 /// The reason of the system, with the file.
-pub fn unpack(data: &[Data], folder: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn unpack<P: AsRef<Path>, T>(
+    files: impl IntoIterator<Item = (P, T)>,
+    folder: &Path,
+    write: impl Fn(&Path, T) -> std::io::Result<()>,
+) -> Result<Vec<PathBuf>, String> {
     let mut written = Vec::new();
-    for (path, content) in data {
+    for (path, content) in files {
         let target = folder.join(path);
+        if target.exists() {
+            continue;
+        }
         let told = |e: std::io::Error| format!("cannot write {}: {e}", target.display());
         if let Some(parent) = target.parent() {
             std::fs::create_dir_all(parent).map_err(told)?;
         }
-        if !target.exists() {
-            std::fs::write(&target, content).map_err(told)?;
-            written.push(target);
-        }
+        write(&target, content).map_err(told)?;
+        written.push(target);
     }
     Ok(written)
 }

@@ -153,7 +153,6 @@ pub(crate) fn images_of<const D: usize>(world: &World<D>, x: Vect<D>) -> Vec<Vec
     all
 }
 
-/// Marks of particles at a free surface.
 fn at_surface<const D: usize>(world: &World<D>) -> Result<Vec<bool>, StepError> {
     let outward = outward(world)?;
     let reach = CONE * world.spacing;

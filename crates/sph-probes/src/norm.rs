@@ -167,8 +167,7 @@ pub fn mean(times: &[f64], values: &[f64]) -> Option<f64> {
 /// Period of an oscillation, s: the mean time between crossings of the mean in the same direction,
 /// interpolated linearly. `None` if there are not two of either direction.
 ///
-/// Crossings upward and downward are counted by themselves, so that a mean that is a little off
-/// does no harm.
+/// Crossings upward and downward are counted by themselves, so that a mean that is a little off does no harm.
 pub fn period(times: &[f64], values: &[f64]) -> Option<f64> {
     let mean = mean(times, values)?;
     let finite = times.iter().zip(values).filter(|(_, v)| v.is_finite());

@@ -116,7 +116,6 @@ impl NearbyParticles {
         (filling > 0.0).then(|| sum / filling)
     }
 
-    /// The means at all particles.
     pub fn means(&self, kernel: &dyn Sampler, q: &[f64]) -> Vec<f64> {
         let at_own = self.images.iter().zip(q);
         at_own

@@ -91,7 +91,6 @@ pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     Ok(Frames::from_folder(folder)?)
 }
 
-/// The file of the picture, if it can be one.
 pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
     match kinds.contains(&out.extension().and_then(|e| e.to_str()).unwrap_or_default()) {
         true => Ok(out),

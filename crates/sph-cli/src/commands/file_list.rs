@@ -23,7 +23,6 @@ pub fn ending(folder: &Path) -> String {
     format!("written to {shown}\n{files}look at it: sph view {word}\n")
 }
 
-/// Rows of name and meaning: pictures first.
 fn listing(folder: &Path) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for (sub, extension, one, many) in [

@@ -92,7 +92,6 @@ fn explain_text(e: &Examination) -> String {
     text + &paragraph(2, WIDTH, &comma_list(e.columns.iter().map(name)))
 }
 
-/// The run, its cost, its quality, and the places of its files.
 pub fn outcome(summary: &Summary, out: &Path) -> String {
     let derived = summary.derived.iter();
     let derived = derived.map(|(name, value)| row(name, number::plain(*value)));

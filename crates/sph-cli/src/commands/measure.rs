@@ -121,8 +121,7 @@ fn reduced(
     }
     let weights = match arguments.weight {
         Weight::One => None,
-        Weight::Mass => Some(quantity(frame, "mass")?.values),
-        Weight::Volume => Some(quantity(frame, "volume")?.values),
+        weight => Some(quantity(frame, weight.name())?.values),
     };
     let of = |numbers: &[usize]| -> Option<Vec<f64>> {
         let weights = weights.as_ref()?;

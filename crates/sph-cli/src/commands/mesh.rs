@@ -16,7 +16,6 @@ const UNITS: [f64; 2] = [20.0, 2.0];
 /// Shares of its own size by which a coordinate in single precision is rounded.
 const SINGLE: f64 = 6e-8;
 
-/// True if the argument names a file of facets and no scene.
 pub fn is_mesh(argument: &str) -> bool {
     let ending = Path::new(argument).extension();
     ending.is_some_and(|e| e.eq_ignore_ascii_case("stl"))

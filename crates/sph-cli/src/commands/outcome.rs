@@ -10,7 +10,6 @@ use sph_run::Status;
 use crate::commands::file_list;
 use crate::terminal::{columns, headed, memory, remarks, row, table};
 
-/// The run, its cost, its quality, and the places of its files.
 pub fn text(summary: &Summary, out: &Path) -> String {
     let heads = "name, value, norm, against, samples";
     headline(summary.status, &summary.scene)
@@ -96,7 +95,6 @@ fn error(error: &ErrorEntry) -> Vec<String> {
 
 const TERMS: usize = 6;
 
-/// The particle, the terms that acted there, remedies, and files to look at.
 pub fn failure(failure: &Failure) -> String {
     let found = &failure.findings;
     let mut text = found.particle.as_ref().map_or(String::new(), suspect);

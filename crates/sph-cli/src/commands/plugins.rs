@@ -165,7 +165,6 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
     text
 }
 
-/// True if a plugin cannot be built without the parameter.
 fn required(schema: &Json, name: &str) -> bool {
     let listed = schema.get("required").and_then(Json::as_array);
     listed.into_iter().flatten().any(|r| r == name)

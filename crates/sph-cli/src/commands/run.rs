@@ -144,10 +144,9 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let real = file.canonicalize().map_err(missing)?;
     let own = out.join(CHECKPOINT).canonicalize();
     if own.is_ok_and(|own| own == real) {
-        let out = out.display();
-        return Err(Trouble::usage(format!(
-            "{out} would be overwritten, and the run starts from it: name another folder with --out"
-        )));
+        let why =
+            "would be overwritten, and the run starts from it: name another folder with --out";
+        return Err(format!("{} {why}", out.display()).into());
     }
     Ok(Start::From(file))
 }
@@ -155,10 +154,8 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
 /// Refusals before the folder is touched.
 fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
     if arguments.resume && !out.join(CHECKPOINT).is_file() {
-        let out = out.display();
-        return Err(Trouble::usage(format!(
-            "there is no checkpoint in {out} to resume from: start without --resume"
-        )));
+        let why = "to resume from: start without --resume";
+        return Err(format!("there is no checkpoint in {} {why}", out.display()).into());
     }
     Ok(())
 }
@@ -202,7 +199,6 @@ fn trouble(
     trouble
 }
 
-/// The command that resumes the run.
 fn going_on(arguments: &RunArguments, out: &Path) -> String {
     let scene = &arguments.scene;
     let out = [("--out", out.display().to_string())].into_iter();

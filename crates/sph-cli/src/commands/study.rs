@@ -102,7 +102,6 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
     Ok(())
 }
 
-/// The study by its path, or by the name of a shipped one.
 fn read(
     arguments: &StudyArguments,
     name: &str,
@@ -177,7 +176,6 @@ fn text(results: &Results, out: &Path) -> String {
     text + &format!("on {machine}\nwritten to {out}: report.html shows all of it\n")
 }
 
-/// The finished part, and the way to go on.
 fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
     let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
     let (finished, all) = (records.iter().filter(over).count(), records.len());

@@ -86,7 +86,6 @@ pub fn paragraph(indent: usize, width: usize, text: &str) -> String {
     lines.into_iter().map(|line| line + "\n").collect()
 }
 
-/// A list of remarks, each with a dash, broken between words.
 pub fn remarks(remarks: &[String]) -> String {
     let item = |r: &String| format!("  - {}", paragraph(4, WIDTH, r).trim_start());
     remarks.iter().map(item).collect()
@@ -99,7 +98,6 @@ pub fn paragraphs<T: AsRef<str>>(indent: usize, texts: &[T]) -> String {
     broken.collect()
 }
 
-/// Names with commas between, or what is said where there are none.
 pub fn listed(names: &[String], none: &str) -> String {
     match names {
         [] => none.to_string(),

@@ -13,7 +13,6 @@ use crate::terminal::console;
 
 /// Wall-clock time between two updates of the bar.
 const BAR: Duration = Duration::from_millis(100);
-/// Divisions of the bar.
 const DIVISIONS: u64 = 1000;
 
 pub enum Display {
@@ -99,7 +98,6 @@ impl Watcher {
         }
     }
 
-    /// Removes the bar, or prints the end of the run.
     pub fn finish(&mut self) {
         self.display.finish();
         if let (Display::Lines, Some(last), Some(mut meter)) =

@@ -46,7 +46,6 @@ impl BedLevels {
         })
     }
 
-    /// The places that count.
     fn places<'a>(&self, bed: &'a Bed) -> impl Iterator<Item = usize> + 'a {
         let from = self.from.unwrap_or(f64::NEG_INFINITY);
         let to = self.to.unwrap_or(f64::INFINITY);

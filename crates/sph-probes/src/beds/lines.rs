@@ -117,15 +117,13 @@ pub enum LineOf {
 /// Root mean square of the height of a line over a reference's, at the reference's points, the share of these points
 /// where there is a line, and the root mean square of their distances from it, in any direction.
 ///
-/// The line goes through the highest particle of every column of two spacings' width, half a spacing
-/// above it; with `of = "failure"` through the highest that has moved by less than `moved` since the
-/// start, wherever that is: the limit between the soil that failed and that which did not. With
-/// `of = "limit"` it goes half a spacing under the lowest particle of a column that is faster than
-/// `threshold` now, and along the surface where none is: the limit of a moving bed
-/// (`bed-lines`). Between
-/// two particles the line is straight, beyond the last ones level; a column without a particle
-/// interrupts it. Points of the reference without a line do not count in the first and the last value:
-/// read the share, too. Without any they are NaN. A steep line is nearer than it is high.
+/// The line goes through the highest particle of every column of two spacings' width, half a spacing above it; with `of
+/// = "failure"` through the highest that has moved by less than `moved` since the start, wherever that is: the limit
+/// between the soil that failed and that which did not. With `of = "limit"` it goes half a spacing under the lowest
+/// particle of a column that is faster than `threshold` now, and along the surface where none is: the limit of a moving
+/// bed (`bed-lines`). Between two particles the line is straight, beyond the last ones level; a column without a
+/// particle interrupts it. Points of the reference without a line do not count in the first and the last value: read
+/// the share, too. Without any they are NaN. A steep line is nearer than it is high.
 ///
 /// Displacements are kept for such probes only.
 ///

@@ -12,12 +12,11 @@ use crate::{Probe, ProbeColumn, ProbeEntry};
 /// The largest |ψ| with ψ(x, y) = ∫ u_x dy′ from the bottom y₀ of a box, and its place: the
 /// strength and the centre of a vortex.
 ///
-/// The velocity at the points of a grid is a Shepard mean of the particles, zero on the bottom,
-/// which is a wall, and where there is no fluid. A mean is not a value: it smooths with an error of
-/// h² u″. `corrections` adds the means of what the particles differ by from their own mean, which
-/// leaves h⁴ for the first time. The integral is that of trapezia, and the extreme the top of
-/// parabolas through the largest value on the grid and its neighbours: both are second order in the
-/// spacing of the grid. Without particles the values are NaN.
+/// The velocity at the points of a grid is a Shepard mean of the particles, zero on the bottom, which is a wall, and
+/// where there is no fluid. A mean is not a value: it smooths with an error of h² u″. `corrections` adds the means of
+/// what the particles differ by from their own mean, which leaves h⁴ for the first time. The integral is that of
+/// trapezia, and the extreme the top of parabolas through the largest value on the grid and its neighbours: both are
+/// second order in the spacing of the grid. Without particles the values are NaN.
 ///
 /// The box must hold the vortex, and the flow must be that of an incompressible fluid, in 2D.
 ///

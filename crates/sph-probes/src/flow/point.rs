@@ -129,13 +129,11 @@ impl<const D: usize> Probe<D> for VelocityProbe {
     }
 }
 
-/// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the
-/// water beside it.
+/// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the water beside it.
 ///
-/// q = Σ V [q_b + ρ_w g·(x − r_b)] w / Σ V w, as `pressure` with the weight of the pores' fluid;
-/// 0 where there is nothing. p is the pressure of the equation of state and p' the effective
-/// pressure, 0 outside of soils. Only scenes with `[effective-pressure.PLUGIN]` have it; for such
-/// probes the field `pore_pressure` is computed.
+/// q = Σ V [q_b + ρ_w g·(x − r_b)] w / Σ V w, as `pressure` with the weight of the pores' fluid; 0 where there is
+/// nothing. p is the pressure of the equation of state and p' the effective pressure, 0 outside of soils. Only scenes
+/// with `[effective-pressure.PLUGIN]` have it; for such probes the field `pore_pressure` is computed.
 ///
 /// Source: Ghaïtanellis 2017, Eqs. 2.91 and 5.26.
 ///

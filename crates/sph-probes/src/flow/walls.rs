@@ -6,18 +6,15 @@ use sph_neighbours::{WallForce, World, cross};
 use crate::flow::point::{point, wall_number};
 use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
-/// Force and moment of the fluid on a named wall, pressure and friction together, and the
-/// pressure integral by itself.
+/// Force and moment of the fluid on a named wall, pressure and friction together, and the pressure integral by itself.
 ///
-/// The force is the reaction to the force of the wall on the particles, F = −Σ m_a a_a,wall: with the
-/// weight it is the whole change of the fluid's momentum. The columns `.pressure` are
-/// −Σ p_s S_s n_s over the wall's elements (none with dummy particles). In two dimensions forces
-/// are per metre of depth.
+/// The force is the reaction to the force of the wall on the particles, F = −Σ m_a a_a,wall: with the weight it is the
+/// whole change of the fluid's momentum. The columns `.pressure` are −Σ p_s S_s n_s over the wall's elements (none with
+/// dummy particles). In two dimensions forces are per metre of depth.
 ///
-/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it
-/// is that of a body larger by this half spacing: 1.30 times the buoyancy of the block of the
-/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy, but for `walls.symmetric`, whose reaction
-/// is the displaced weight.
+/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it is that of a body
+/// larger by this half spacing: 1.30 times the buoyancy of the block of the tests, where the pressure integral gives
+/// 1.03. Take `.pressure` for buoyancy, but for `walls.symmetric`, whose reaction is the displaced weight.
 ///
 /// ```toml
 /// [probe.drag]

@@ -29,8 +29,8 @@ pub(crate) struct PlannedColumn {
     pub reduce: Reduce,
     pub scale: f64,
     pub spacings: f64,
-    /// The unit, where it is not that of the quantity.
-    pub unit: Option<&'static str>,
+    /// The units in the plane and in space, where they are not that of the quantity.
+    pub units: Option<[&'static str; 2]>,
 }
 
 impl PlannedColumn {
@@ -38,7 +38,7 @@ impl PlannedColumn {
         let of = Quantity::named(name);
         PlannedColumn {
             suffix: suffix.into(),
-            unit: of.unit(),
+            units: of.unit().map(|unit| [unit; 2]),
             of,
             reduce: reduce.into(),
             scale: 1.0,
@@ -51,8 +51,9 @@ impl PlannedColumn {
         self
     }
 
-    pub fn in_unit(mut self, unit: &'static str) -> Self {
-        self.unit = Some(unit);
+    /// In units of its own, in the plane and in space.
+    pub fn in_units(mut self, units: [&'static str; 2]) -> Self {
+        self.units = Some(units);
         self
     }
 
@@ -60,16 +61,17 @@ impl PlannedColumn {
     pub fn over(mut self, scale: f64) -> Self {
         if scale != 1.0 {
             self.scale = scale;
-            self.unit = Some("1");
+            self.units = Some(["1"; 2]);
         }
         self
     }
 }
 
-/// A measurement: the particles that count, their weights, and the quantity that is reduced.
+/// A measurement: the particles that count, their weights, and the quantities that are reduced.
 #[derive(Default)]
-pub(crate) struct Plan<'a> {
-    pub phase: Option<&'a str>,
+pub(crate) struct MeasuringProbe {
+    pub phase: Option<String>,
+    pub number: Option<u32>,
     pub conditions: Vec<QuantityBounds>,
     pub weight: Option<Quantity>,
     pub columns: Vec<PlannedColumn>,
@@ -77,38 +79,17 @@ pub(crate) struct Plan<'a> {
     pub slices: Option<(usize, f64)>,
     /// The axis along which the first quantity is fitted by a line.
     pub fitted: Option<usize>,
+    /// The units of the quantities of the columns, known from the first measurement on.
+    pub units: OnceLock<Vec<&'static str>>,
 }
 
-impl<'a> Plan<'a> {
+impl MeasuringProbe {
     /// Columns of all particles of a phase.
-    pub fn of_phase(phase: Option<&'a str>, columns: impl Into<Vec<PlannedColumn>>) -> Self {
-        Plan {
+    pub fn of_phase(phase: Option<String>, columns: impl Into<Vec<PlannedColumn>>) -> Self {
+        MeasuringProbe {
             phase,
             columns: columns.into(),
-            ..Plan::default()
-        }
-    }
-}
-
-/// Parameters of which a measurement is made.
-pub(crate) trait Preset: Send {
-    fn plan(&self, dimension: usize) -> Plan<'_>;
-}
-
-/// A probe that measures by its parameters.
-pub(crate) struct MeasuringProbe<P> {
-    preset: P,
-    number: Option<u32>,
-    /// The units of the quantities of the columns, known from the first measurement on.
-    units: OnceLock<Vec<&'static str>>,
-}
-
-impl<P: Preset> MeasuringProbe<P> {
-    pub fn new(preset: P) -> Self {
-        MeasuringProbe {
-            preset,
-            number: None,
-            units: OnceLock::new(),
+            ..MeasuringProbe::default()
         }
     }
 
@@ -116,12 +97,11 @@ impl<P: Preset> MeasuringProbe<P> {
     fn counted<const D: usize>(
         &self,
         world: &World<D>,
-        plan: &Plan<'_>,
     ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
-        let phase = CountedPhase::in_phase(world, plan.phase, self.number)?;
+        let phase = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
         let mut all = of_phase.clone();
-        for (of, [above, below]) in &plan.conditions {
+        for (of, [above, below]) in &self.conditions {
             let (value, _) = of.values(world)?;
             all.retain(|k| value(*k) > *above && value(*k) < *below);
         }
@@ -132,10 +112,9 @@ impl<P: Preset> MeasuringProbe<P> {
     fn reduced<const D: usize>(
         &self,
         world: &World<D>,
-        plan: &Plan<'_>,
         (counted, of_phase): (&[usize], &[usize]),
     ) -> Result<Vec<f64>, StepError> {
-        let weight = plan.weight.as_ref().map(|weight| weight.values(world));
+        let weight = self.weight.as_ref().map(|weight| weight.values(world));
         let weight = weight.transpose()?.map(|(weight, _)| weight);
         let weights = |of: &[usize]| -> Option<Vec<f64>> {
             let weight = weight.as_ref()?;
@@ -155,22 +134,28 @@ impl<P: Preset> MeasuringProbe<P> {
             };
             Ok(weighed.reduced(column.reduce) / column.scale + column.spacings * world.spacing)
         };
-        let all: Result<Vec<f64>, StepError> = plan.columns.iter().map(one).collect();
+        let all: Result<Vec<f64>, StepError> = self.columns.iter().map(one).collect();
         self.units.get_or_init(|| units);
         all
     }
 }
 
-impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
+impl<const D: usize> Probe<D> for MeasuringProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
-        let plan = self.preset.plan(D);
         let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
-        let columns = plan.columns.iter().enumerate();
+        let columns = self.columns.iter().enumerate();
         let one = |(k, column): (usize, &PlannedColumn)| {
-            ProbeColumn::named(&column.suffix, column.unit.or(known(k)).unwrap_or("1"))
+            ProbeColumn::named(
+                &column.suffix,
+                column
+                    .units
+                    .map(|units| units[D - 2])
+                    .or(known(k))
+                    .unwrap_or("1"),
+            )
         };
         let mut all: Vec<_> = columns.map(one).collect();
-        if plan.fitted.is_some() {
+        if self.fitted.is_some() {
             all.push(ProbeColumn::named(".slope", "1"));
             all.push(ProbeColumn::named(".rms_about", all[0].unit));
         }
@@ -178,15 +163,14 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     }
 
     fn prepare(&mut self, scene: &ProbeScene<'_>) -> Result<(), String> {
-        self.number = phase::number(self.preset.plan(D).phase, scene)?;
+        self.number = phase::number(self.phase.as_deref(), scene)?;
         Ok(())
     }
 
     fn needs(&self) -> Needs<'static> {
-        let plan = self.preset.plan(D);
-        let of_conditions = plan.conditions.iter().map(|(of, _)| of);
-        let all = plan.columns.iter().map(|column| &column.of);
-        let all = all.chain(of_conditions).chain(&plan.weight);
+        let of_conditions = self.conditions.iter().map(|(of, _)| of);
+        let all = self.columns.iter().map(|column| &column.of);
+        let all = all.chain(of_conditions).chain(&self.weight);
         let fields = all.filter_map(|of| Some(of.column()?.to_string()));
         Needs {
             fields: fields.collect(),
@@ -195,11 +179,10 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let plan = self.preset.plan(D);
-        let (all, of_phase) = self.counted(world, &plan)?;
-        let mut columns = self.reduced(world, &plan, (&all, &of_phase))?;
-        if let Some(axis) = plan.fitted {
-            let (value, _) = plan.columns[0].of.values(world)?;
+        let (all, of_phase) = self.counted(world)?;
+        let mut columns = self.reduced(world, (&all, &of_phase))?;
+        if let Some(axis) = self.fitted {
+            let (value, _) = self.columns[0].of.values(world)?;
             let (place, _) = Quantity::named(AXES[axis]).values(world)?;
             let (x, y): (Vec<f64>, Vec<f64>) = all.iter().map(|k| (place(*k), value(*k))).unzip();
             columns.extend(norm::line(&x, &y));
@@ -208,12 +191,11 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     }
 
     fn curve_columns(&self) -> Vec<ProbeColumn> {
-        let plan = self.preset.plan(D);
-        let Some((axis, _)) = plan.slices else {
+        let Some((axis, _)) = self.slices else {
             return Vec::new();
         };
         let columns = Probe::<D>::columns(self).into_iter();
-        let own = columns.take(plan.columns.len()).map(|column| ProbeColumn {
+        let own = columns.take(self.columns.len()).map(|column| ProbeColumn {
             suffix: match column.suffix.trim_start_matches('.') {
                 "" => "value".into(),
                 name => name.into(),
@@ -225,12 +207,11 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
     }
 
     fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        let plan = self.preset.plan(D);
-        let Some((axis, spacings)) = plan.slices else {
+        let Some((axis, spacings)) = self.slices else {
             return Ok(Vec::new());
         };
         let (axis, width) = (axis.min(D - 1), spacings * world.spacing);
-        let (all, of_phase) = self.counted(world, &plan)?;
+        let (all, of_phase) = self.counted(world)?;
         let positions = world.free.get(fields::POSITION)?;
         let slice = |k: &usize| (positions[*k][axis] / width).floor() as i64;
         let mut slices: std::collections::BTreeMap<i64, Vec<usize>> = Default::default();
@@ -239,7 +220,7 @@ impl<const D: usize, P: Preset> Probe<D> for MeasuringProbe<P> {
         }
         let rows = slices.iter().map(|(slice, own)| {
             let mut row = vec![(*slice as f64 + 0.5) * width];
-            row.extend(self.reduced(world, &plan, (own, &of_phase))?);
+            row.extend(self.reduced(world, (own, &of_phase))?);
             Ok(row)
         });
         rows.collect()

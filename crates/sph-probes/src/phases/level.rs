@@ -158,8 +158,7 @@ pub struct Interface {
     number: Option<u32>,
 }
 
-/// Least Σ V w of a place that is not empty: on a plane surface it is one half, in a corner of two
-/// walls one quarter.
+/// Least Σ V w of a place that is not empty: on a plane surface it is one half, in a corner of two walls one quarter.
 const EMPTY: f64 = 0.2;
 
 impl<const D: usize> Probe<D> for Interface {
@@ -206,8 +205,7 @@ impl<const D: usize> Probe<D> for Interface {
 
 /// Particles around the vertical line over a place, which a wall may carry: place from the line's foot, volume, number.
 ///
-/// Volumes are at most a cell δr^d: a drop alone has a small density and a volume of several
-/// cells, and is no surface.
+/// Volumes are at most a cell δr^d: a drop alone has a small density and a volume of several cells, and is no surface.
 fn column<const D: usize>(
     world: &World<D>,
     at: &[f64],
@@ -225,7 +223,6 @@ fn column<const D: usize>(
     Ok(placed.filter(|(d, ..)| near(d)).collect())
 }
 
-/// The lowest and the highest of these particles.
 fn ends<const D: usize>(near: &[(Vect<D>, f64, usize)]) -> [f64; 2] {
     let [[bottom], [top]] = bounds(near.iter().map(|(d, ..)| [d[D - 1]]));
     [bottom, top]

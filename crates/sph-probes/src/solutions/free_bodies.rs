@@ -82,11 +82,10 @@ impl<const D: usize> Solution<D> for RigidRotation {
 /// u = ω y, v = −ω x about the centre, and the pressure that solves ∇²p = 2 ρ ω² with p = 0 on the
 /// sides: the start of a square of fluid with a free surface, turning clockwise.
 ///
-/// p = −ρ Σ_m Σ_n 32 ω²/(m n π²) / [(mπ/L)² + (nπ/L)²] sin(mπx/L) sin(nπy/L) over odd m and n,
-/// x and y from the lower corner. It is evaluated summed over n,
-/// p = −ρω² x (L−x) + (8 ρω² L²/π³) Σ_m sin(mπx/L)/m³ · cosh(mπ(y−L/2)/L)/cosh(mπ/2),
-/// which is the same and falls exponentially with m. It is a tension everywhere, largest in the
-/// middle: −0.1473 ρω²L².
+/// p = −ρ Σ_m Σ_n 32 ω²/(m n π²) / [(mπ/L)² + (nπ/L)²] sin(mπx/L) sin(nπy/L) over odd m and n, x and y from the lower
+/// corner. It is evaluated summed over n, p = −ρω² x (L−x) + (8 ρω² L²/π³) Σ_m sin(mπx/L)/m³ ·
+/// cosh(mπ(y−L/2)/L)/cosh(mπ/2), which is the same and falls exponentially with m. It is a tension everywhere, largest
+/// in the middle: −0.1473 ρω²L².
 ///
 /// Source: Colagrossi 2005; Le Touzé et al. 2013, §4.
 ///

@@ -27,7 +27,6 @@ pub(crate) fn grid<H: AsRef<str>>(
     text + "</table></div>\n"
 }
 
-/// A table whose rows are alike.
 pub(crate) fn plain_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
     grid(heads, rows, |_| String::new())
 }

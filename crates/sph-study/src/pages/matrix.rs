@@ -36,7 +36,6 @@ pub fn body(results: &Results) -> Result<String, IoError> {
     Ok(page)
 }
 
-/// The bounds of an axis in words.
 fn bounds(frontier: &Frontier) -> String {
     let one = |(name, bounds): (&String, &[f64; 2])| {
         let [green, yellow] = bounds.map(number::plain);

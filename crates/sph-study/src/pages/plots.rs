@@ -12,7 +12,6 @@ const MOST: usize = 12;
 /// Series that are named where there are more than that.
 const BEST: usize = 6;
 
-/// A plot with logarithmic axes.
 fn logarithmic(results: &Results, x_label: String, y_label: String, series: Vec<Series>) -> Plot {
     Plot {
         title: results.title.clone(),

@@ -15,7 +15,6 @@ use crate::{Origin, Results, Scale, Status};
 /// Style of the page, on paper too.
 const STYLE: &str = include_str!("../../templates/report.css");
 
-/// The page.
 fn html(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     let title = escape(&results.title);
@@ -41,7 +40,6 @@ fn html(results: &Results) -> Result<String, IoError> {
     Ok(page)
 }
 
-/// Errors, times and orders of variants of one scene.
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     let lines = results.scale.iter().flat_map(Scale::lines);
@@ -76,7 +74,6 @@ fn headed(title: &str, body: &str) -> String {
     }
 }
 
-/// A text without its line breaks.
 fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -167,7 +164,6 @@ fn orders(results: &Results) -> String {
     some_grid(&heads, &rows)
 }
 
-/// A table whose rows are alike, if it has any.
 fn some_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
     match rows.is_empty() {
         true => String::new(),

@@ -29,7 +29,6 @@ fn with_heads(rows: impl Iterator<Item = Vec<(String, String)>>) -> Vec<Vec<Stri
     all
 }
 
-/// A variant as a row, each cell with its head.
 fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
     let none = || "–".to_string();
     let number = |x: Option<f64>| x.map_or_else(none, number::plain);
@@ -99,7 +98,6 @@ pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
     write_whole(path, lines.collect::<String>())
 }
 
-/// Plain numbers of a variant, with the heads of their columns.
 fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String, String)> {
     let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
     let value = |axis: &String| clean(&v.values[axis]).into_owned();
@@ -146,7 +144,6 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
     row
 }
 
-/// Names of all errors in the report.
 fn errors(results: &Results) -> Vec<String> {
     let mut all = results.errors.clone();
     for name in results.frontiers.iter().flat_map(|f| &f.errors) {

@@ -154,8 +154,7 @@ fn set(key: &str, value: Value, at: String) -> Result<Set, SceneProblem> {
 
 /// The scene values of a table, whose keys are paths as in `--set` or tables of such.
 ///
-/// A table under a plain key is gone into; one under a key with a dot, and an empty one, is the
-/// value itself.
+/// A table under a plain key is gone into; one under a key with a dot, and an empty one, is the value itself.
 ///
 /// # Errors
 /// A key that is no path.

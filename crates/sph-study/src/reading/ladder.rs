@@ -1,7 +1,6 @@
 //! Axes that are gone along from harmless to absurd, each with its own scene.
 
 use sph_core::{SceneProblem, comma_list, suggestion};
-use sph_scene::Source;
 
 use crate::reading::axis::label;
 use crate::reading::combine::{MOST, combinations, safe};
@@ -28,11 +27,8 @@ fn column(name: &str, choices: Vec<Choice>) -> StudyAxis {
 ///
 /// # Errors
 /// All mistakes of the axes, else all of their scenes.
-pub fn read(
-    file: &StudyFile,
-    source: &Source,
-    inputs: &Inputs<'_>,
-) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
+pub fn read(inputs: &Inputs<'_>) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
+    let (file, source) = (&inputs.file, &inputs.source);
     let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
@@ -60,8 +56,6 @@ pub fn read(
         }
         let errors = &file.axis[k].error;
         let reader = Reader {
-            file,
-            source,
             inputs,
             scene,
             axes,
@@ -88,7 +82,6 @@ pub fn read(
     }
 }
 
-/// Mistakes of the study as a whole.
 fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     let mut problems = Vec::new();
     let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));

@@ -39,8 +39,7 @@ pub struct Study {
 impl Study {
     /// Reads a study file and the scenes of all its variants.
     ///
-    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are
-    /// shown but not run.
+    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are shown but not run.
     ///
     /// # Errors
     /// Every mistake of the study and of the scenes that follow from it.
@@ -74,13 +73,15 @@ impl Study {
         let folder = path.parent().unwrap_or(Path::new(""));
         let inputs = Inputs {
             name: name.unwrap_or("study").to_string(),
+            file,
+            source,
             find: &|scene| find(folder, scene),
             set,
             only,
         };
-        let study = match file.axis.is_empty() {
-            true => varied(&inputs, file, source)?,
-            false => plan_ladders(&inputs, file, source)?,
+        let study = match inputs.file.axis.is_empty() {
+            true => varied(inputs)?,
+            false => plan_ladders(inputs)?,
         };
         let fitted = |p: &String| study.variants.iter().any(|v| fits(p, &v.name));
         if let Some(pattern) = only.iter().find(|p| !fitted(p)) {
@@ -130,9 +131,10 @@ impl Study {
     }
 }
 
-fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
-    let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
-    let at = |path: &str, why: String| Refused::at(&source, path, why);
+fn varied(inputs: Inputs<'_>) -> Result<Study, Refused> {
+    let (file, source) = (&inputs.file, &inputs.source);
+    let refused = |problems: Vec<SceneProblem>| Refused::in_study(source, &problems);
+    let at = |path: &str, why: String| Refused::at(source, path, why);
     let axes = axis::axes(&file.vary).map_err(refused)?;
     let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
     let errors = file.error.paths("error");
@@ -161,33 +163,31 @@ fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study,
     };
     let scene = scene.map_err(|why| at("scene", why))?;
     let reader = Reader {
-        file: &file,
-        source: &source,
-        inputs,
+        inputs: &inputs,
         scene: &scene,
         axes: &axes,
         common: axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?,
-        refinement: refinement(&file, &axes),
+        refinement: refinement(file, &axes),
         errors,
     };
     let variants = reader.all(&all)?;
     Ok(Study {
-        name: inputs.name.clone(),
-        scene: scene.name.clone(),
-        errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
-        refinement: reader.refinement.clone(),
-        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        errors: reader.errors.into_iter().map(|e| e.0).collect(),
+        refinement: reader.refinement,
+        scene: scene.name,
         ladders: Vec::new(),
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        name: inputs.name,
+        file: inputs.file,
+        source: inputs.source,
         axes,
         variants,
-        file,
-        source,
     })
 }
 
 /// Axes that are gone along until they break.
-fn plan_ladders(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
-    let (ladders, variants) = ladder::read(&file, &source, inputs)?;
+fn plan_ladders(inputs: Inputs<'_>) -> Result<Study, Refused> {
+    let (ladders, variants) = ladder::read(&inputs)?;
     let mut scenes: Vec<&str> = Vec::new();
     for ladder in &ladders {
         let scene = &ladder.frontier.scene;
@@ -196,16 +196,16 @@ fn plan_ladders(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<
         }
     }
     Ok(Study {
-        name: inputs.name.clone(),
-        scene: scenes.join(", "),
         errors: Vec::new(),
         refinement: None,
-        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        scene: scenes.join(", "),
         axes: ladder::columns(),
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        name: inputs.name,
+        file: inputs.file,
+        source: inputs.source,
         ladders,
         variants,
-        file,
-        source,
     })
 }
 

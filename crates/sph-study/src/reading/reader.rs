@@ -18,6 +18,8 @@ const REFINEMENT: &str = "numerics.spacing";
 
 pub(crate) struct Inputs<'a> {
     pub name: String,
+    pub file: StudyFile,
+    pub source: Source,
     pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
     /// Settings put on top of every variant from outside.
     pub set: &'a [Override],
@@ -26,8 +28,6 @@ pub(crate) struct Inputs<'a> {
 }
 
 pub(crate) struct Reader<'a> {
-    pub file: &'a StudyFile,
-    pub source: &'a Source,
     pub inputs: &'a Inputs<'a>,
     /// The scene of all places that have none of their own.
     pub scene: &'a SceneText,
@@ -78,7 +78,7 @@ impl Reader<'_> {
             let Some(count) = times.remove(&diagnostic.to_string()) else {
                 continue;
             };
-            if count < variants && diagnostic.file != self.source.file {
+            if count < variants && diagnostic.file != self.inputs.source.file {
                 diagnostic.message = format!("variant `{name}`: {}", diagnostic.message);
             }
             told.push(mistake);
@@ -89,7 +89,8 @@ impl Reader<'_> {
     fn one(&self, combination: &Combination) -> Result<Variant, Vec<Mistake>> {
         let scene = self.scene(&combination.choices)?;
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
-        let place = |scene: &Source, found: &[_]| placed(self.source, &given_by, scene, found);
+        let place =
+            |scene: &Source, found: &[_]| placed(&self.inputs.source, &given_by, scene, found);
         let SceneText {
             text,
             file,
@@ -106,7 +107,7 @@ impl Reader<'_> {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
         if !problems.is_empty() {
-            return Err(Refused::in_study(self.source, &problems).mistakes);
+            return Err(Refused::in_study(&self.inputs.source, &problems).mistakes);
         }
         let scene = subject.source();
         let unreadable = |problem| place(scene, &scene.diagnose(&[problem]));
@@ -135,7 +136,7 @@ impl Reader<'_> {
             return Ok(Cow::Borrowed(self.scene));
         };
         let found = (self.inputs.find)(name).map(Cow::Owned);
-        found.map_err(|why| Refused::at(self.source, path, why).mistakes)
+        found.map_err(|why| Refused::at(&self.inputs.source, path, why).mistakes)
     }
 
     /// Settings put on the scene, in this order, with their places.
@@ -145,7 +146,7 @@ impl Reader<'_> {
         choices: &[usize],
     ) -> (Vec<Override>, Vec<Option<String>>) {
         let mut all: Vec<(Override, Option<String>)> = Vec::new();
-        if !self.file.keep_output {
+        if !self.inputs.file.keep_output {
             let quiet = scene.method.quiet().iter();
             let quiet = quiet.filter_map(|text| Override::parse(text).ok());
             all.extend(quiet.map(|o| (o, None)));

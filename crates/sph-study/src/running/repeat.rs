@@ -70,7 +70,6 @@ pub trait Watcher: Sync {
     }
 }
 
-/// A silent watcher.
 impl Watcher for () {}
 
 pub(crate) struct Job<'a> {

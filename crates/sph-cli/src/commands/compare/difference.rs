@@ -27,16 +27,23 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+impl Column {
+    fn new(name: String, unit: String, components: usize, values: Vec<f64>) -> Self {
+        Column {
+            name,
+            unit,
+            components,
+            values,
+        }
+    }
+}
+
 impl Table {
     pub fn of_series(table: sph_io::Table) -> Self {
         let times = table.column("time").unwrap_or_default();
         let keys = times.iter().map(|t| t.to_bits()).collect();
-        let columns = table.columns.into_iter().map(|c| Column {
-            name: c.name,
-            unit: c.unit,
-            components: 1,
-            values: c.values,
-        });
+        let columns = table.columns.into_iter();
+        let columns = columns.map(|c| Column::new(c.name, c.unit, 1, c.values));
         Table {
             columns: columns.collect(),
             keys,
@@ -47,31 +54,21 @@ impl Table {
 
     /// All columns of the particles of a checkpoint; those of walls and lists have other lengths, and no keys.
     pub fn of_checkpoint(checkpoint: Checkpoint) -> Self {
-        let columns = checkpoint.columns.into_iter().map(|c| Column {
-            values: c.data.reals(),
-            unit: String::new(),
-            components: c.components,
-            name: c.name,
-        });
+        let columns = checkpoint.columns.into_iter();
+        let columns =
+            columns.map(|c| Column::new(c.name, String::new(), c.components, c.data.reals()));
         Table::keyed(columns.collect(), None)
     }
 
     /// The columns at the points of a frame.
     pub fn of_piece((piece, time): (Piece<'static>, f64)) -> Self {
-        let position = Column {
-            name: "position".into(),
-            unit: "m".into(),
-            components: 3,
-            values: piece.points.as_flattened().to_vec(),
-        };
+        let places = piece.points.as_flattened().to_vec();
+        let position = Column::new("position".into(), "m".into(), 3, places);
         let fields = piece.fields.into_iter();
         let at_points = fields.filter(|f| f.location == Location::Point);
-        let columns = at_points.map(|f| Column {
-            values: f.data.reals(),
-            name: f.name.into_owned(),
-            unit: f.unit.into_owned(),
-            components: f.components,
-        });
+        let named = |name: std::borrow::Cow<str>| name.into_owned();
+        let columns = at_points
+            .map(|f| Column::new(named(f.name), named(f.unit), f.components, f.data.reals()));
         let columns = std::iter::once(position).chain(columns).collect();
         Table::keyed(columns, Some(time))
     }
@@ -224,7 +221,6 @@ fn difference(
 }
 
 impl Difference {
-    /// True if it is of the same column of the same file.
     pub fn is_of(&self, other: &Difference) -> bool {
         self.file == other.file && self.column == other.column
     }

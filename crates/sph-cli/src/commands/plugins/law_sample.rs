@@ -14,8 +14,7 @@ pub struct LawSample {
     pub law: Box<dyn Rheology>,
 }
 
-/// A law for every name and every value of `vary`, a `KEY=[…]`. With several names, keys start
-/// with a name.
+/// A law for every name and every value of `vary`, a `KEY=[…]`. With several names, keys start with a name.
 pub fn all(
     plugins: &[PluginInfo],
     set: &[String],

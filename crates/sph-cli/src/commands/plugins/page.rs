@@ -22,7 +22,6 @@ mover rigid-body floating-box.png A floating box
 open-boundary velocity-inlet channel-open.png A channel between two open faces
 smoother delta-sph granular-pile-lajeunesse.png A pile of beads at rest
 walls usaw gamma-gear.png γ around a gear";
-/// Longest line.
 const LONGEST: usize = 120;
 /// Stands for a space at which no line ends.
 const GLUE: char = '\0';
@@ -62,7 +61,6 @@ fn one(kind: &str, plugin: &PluginInfo) -> String {
     text
 }
 
-/// A picture of a plugin, where there is one.
 fn picture(kind: &str, name: &str) -> Option<String> {
     if let Some((_, first, seen)) = DRAWN.iter().find(|drawn| drawn.0 == kind) {
         return Some(format!("![`{name}`, {seen}](images/{first}-{name}.svg)"));

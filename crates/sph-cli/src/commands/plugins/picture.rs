@@ -20,7 +20,6 @@ const RATES: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
 const PRESSURE: f64 = 1000.0;
 /// Strain up to which laws are tried that do not yield before.
 const FAR: f64 = 2.0;
-/// Points of a curve.
 const POINTS: usize = 200;
 /// Most curves that can be distinguished.
 const MOST: usize = 12;
@@ -46,9 +45,9 @@ pub fn draw_laws(
         0 => flow(&curves, &rates)?,
         all if all == curves.len() => from_rest(&curves, &rates, strain(arguments)?)?,
         _ => {
-            let why =
-                "laws with and without an elastic part have no common picture: draw them apart";
-            return Err(Trouble::usage(why));
+            return Err(Trouble::usage(
+                "laws with and without an elastic part have no common picture: draw them apart",
+            ));
         }
     };
     save(&panels, file)
@@ -80,7 +79,6 @@ fn curves<'s>(samples: &'s [LawSample], pressures: &[f64]) -> Result<Vec<Curve<'
     Ok(curves)
 }
 
-/// The given numbers, or others where there are none.
 fn or_else<'n>(given: &'n [f64], others: &'n [f64]) -> &'n [f64] {
     if given.is_empty() { others } else { given }
 }
@@ -112,12 +110,7 @@ fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
         all.map(|c| Series::line(&c.label, of(c))).collect()
     };
     Ok(Panels(vec![
-        Plot {
-            x_label: "strain rate [1/s]".into(),
-            y_label: "shear stress [Pa]".into(),
-            series: series(&stress),
-            ..Plot::default()
-        },
+        plot("strain rate [1/s]", "shear stress [Pa]", series(&stress)),
         viscosities(series(&|c| viscosity(c, &fine))),
     ]))
 }
@@ -143,12 +136,7 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
             sheared.push(Series::line(label, points.step_by(10).collect()));
         }
     }
-    let mut panels = vec![Plot {
-        x_label: "shear strain [1]".into(),
-        y_label: "shear stress [Pa]".into(),
-        series: sheared,
-        ..Plot::default()
-    }];
+    let mut panels = vec![plot("shear strain [1]", "shear stress [Pa]", sheared)];
     let widened = |[a, b]: [f64; 2], r: &f64| [r.min(a), r.max(b)];
     let [low, high] = rates.iter().fold([f64::INFINITY, 0.0], widened);
     let fine = spread(low / 10.0, high * 10.0, POINTS);
@@ -165,10 +153,16 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
 
 fn viscosities(series: Vec<Series>) -> Plot {
     Plot {
-        x_label: "strain rate [1/s]".into(),
-        y_label: "viscosity [Pa s]".into(),
         log_x: true,
         log_y: true,
+        ..plot("strain rate [1/s]", "viscosity [Pa s]", series)
+    }
+}
+
+fn plot(x_label: &str, y_label: &str, series: Vec<Series>) -> Plot {
+    Plot {
+        x_label: x_label.into(),
+        y_label: y_label.into(),
         series,
         ..Plot::default()
     }
@@ -256,11 +250,9 @@ pub fn draw_kernels(
 }
 
 fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
-    let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| Plot {
-        x_label: "r/h [1]".into(),
-        y_label: label.into(),
-        series: kernels.iter().map(|k| curve(&**k, of)).collect(),
-        ..Plot::default()
+    let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| {
+        let curves = kernels.iter().map(|k| curve(&**k, of));
+        plot("r/h [1]", label, curves.collect())
     };
     Panels(vec![
         panel("w h² [1]", &|k, q| k.normalisation(DIMENSION) * k.value(q)),

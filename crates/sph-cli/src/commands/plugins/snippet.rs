@@ -47,7 +47,6 @@ fn key(parameter: &Parameter, schema: &Json) -> String {
     }
 }
 
-/// A JSON value as TOML writes it on one line.
 fn toml(value: &Json) -> String {
     match value {
         Json::Array(items) => format!("[{}]", comma_list(items.iter().map(toml))),
@@ -126,7 +125,6 @@ fn example(node: &Json, root: &Json) -> String {
     }
 }
 
-/// The first type of a node.
 fn kind(node: &Json) -> &str {
     let kind = &node["type"];
     kind.as_str().or_else(|| kind[0].as_str()).unwrap_or("")

@@ -48,7 +48,6 @@ pub struct Entry {
 }
 
 impl Gallery {
-    /// The theme and the entry of a scene.
     pub fn find(&self, name: &str) -> Option<(&Theme, &Entry)> {
         let all = self.theme.iter();
         let mut all = all.flat_map(|theme| theme.entry.iter().map(move |entry| (theme, entry)));

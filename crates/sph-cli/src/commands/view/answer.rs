@@ -18,7 +18,6 @@ pub struct Answer {
     pub body: Vec<u8>,
 }
 
-/// Kinds of files of a run that are shown.
 const KINDS: [(&str, &str); 6] = [
     ("png", "image/png"),
     ("gif", "image/gif"),
