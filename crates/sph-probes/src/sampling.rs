@@ -71,8 +71,7 @@ impl NearbyParticles {
         high: Vect<2>,
         supports: usize,
     ) -> Result<Self, StepError> {
-        let positions = world.free.get(fields::POSITION)?;
-        let volumes = world.free.get(fields::VOLUME)?;
+        let (positions, volumes) = world.free.all((fields::POSITION, fields::VOLUME))?;
         let radius = world.kernel.support_radius();
         let margin = Vect::repeat(radius * supports as f64);
         let (corner, far) = (low - margin, high + margin);

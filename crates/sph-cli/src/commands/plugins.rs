@@ -23,7 +23,11 @@ pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
         let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
         let text = match arguments.markdown {
             true => page::markdown(&kinds),
-            false => overview(&kinds),
+            false => {
+                let kinds = kinds.iter().map(|kind| kind_text(kind) + "\n");
+                kinds.collect::<String>()
+                    + "sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n"
+            }
         };
         CommandOutput::new(&all, text).print(arguments.json);
         return Ok(());
@@ -76,12 +80,6 @@ fn find_plugin(kind: &PluginKind, name: &str) -> Result<PluginInfo, Trouble> {
         )
     };
     Ok(*found.ok_or_else(unknown)?)
-}
-
-fn overview(kinds: &[&PluginKind]) -> String {
-    let kinds = kinds.iter().map(|kind| kind_text(kind) + "\n");
-    kinds.collect::<String>()
-        + "sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n"
 }
 
 fn kind_text(kind: &PluginKind) -> String {

@@ -139,10 +139,9 @@ fn read(
 
 /// Collects the variants to run, so that every mistake is known before the first run.
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
-    for (k, variant) in study.variants.iter().enumerate() {
-        if watcher.has_to_run(k) {
-            watcher.assembled(variant, study.assemble(variant)?);
-        }
+    let all = study.variants.iter().zip(&watcher.open);
+    for (variant, _) in all.filter(|(_, open)| **open) {
+        watcher.assembled(variant, study.assemble(variant)?);
     }
     Ok(())
 }

@@ -34,7 +34,7 @@ impl Job {
             return None;
         }
         let (universe, _) = mpi::initialize_with_threading(Threading::Serialized)?;
-        let rank = Arc::new(MpiRank::current());
+        let (rank, ranks) = (world().rank() as usize, world().size() as usize);
         let told = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
             told(panic);
@@ -42,7 +42,7 @@ impl Job {
             world().abort(101);
         }));
         Some(Job {
-            rank,
+            rank: Arc::new(MpiRank { rank, ranks }),
             _universe: universe,
         })
     }
@@ -69,14 +69,6 @@ fn world() -> SimpleCommunicator {
 }
 
 impl MpiRank {
-    /// This process; MPI must have been initialised.
-    pub(crate) fn current() -> Self {
-        MpiRank {
-            rank: world().rank() as usize,
-            ranks: world().size() as usize,
-        }
-    }
-
     /// A message of any length: pieces, the last of which is shorter than the others.
     fn receive(&self, from: usize) -> Vec<u8> {
         let world = world();

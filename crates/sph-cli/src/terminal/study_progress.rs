@@ -23,7 +23,7 @@ pub struct Watcher<'s> {
     /// Variants that are to be run or have been.
     total: usize,
     /// By variant: whether there is something to do.
-    open: Vec<bool>,
+    pub open: Vec<bool>,
     state: Mutex<State>,
 }
 
@@ -86,10 +86,6 @@ impl<'s> Watcher<'s> {
                 repetition: BTreeMap::new(),
             }),
         }
-    }
-
-    pub fn has_to_run(&self, k: usize) -> bool {
-        self.open.get(k).is_some_and(|open| *open)
     }
 
     /// A variant is good and will take about so long.

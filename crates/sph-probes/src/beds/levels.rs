@@ -171,8 +171,7 @@ impl<const D: usize> Probe<D> for ConcentrationLevel {
             let reason = "no fluid of this scene carries grains: expected `[suspension.PLUGIN]`";
             StepError::stage("probe `concentration-level`", reason)
         })?;
-        let position = world.free.get(fields::POSITION)?;
-        let mass = world.free.get(fields::MASS)?;
+        let (position, mass) = world.free.all((fields::POSITION, fields::MASS))?;
         let mut grains: Vec<[f64; 3]> = (0..position.len())
             .map(|k| [position[k][D - 1], mass[k], concentration[k]])
             .collect();

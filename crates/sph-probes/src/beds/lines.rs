@@ -45,8 +45,7 @@ impl BedLines {
     /// Surface, interface and lowest moving grains, and the moving mass, kg.
     fn draw(&self, world: &World<2>) -> Result<([Columns; 3], f64), StepError> {
         let bed = CountedPhase::in_phase(world, Some(&self.phase), self.number)?;
-        let positions = world.free.get(fields::POSITION)?;
-        let velocity = world.free.get(fields::VELOCITY)?;
+        let (positions, velocity) = world.free.all((fields::POSITION, fields::VELOCITY))?;
         let mass = world.free.get(fields::MASS)?;
         let xs = || positions.iter().map(|x: &Vect<2>| x[0]);
         let ends = [HIGHEST, HIGHEST, LOWEST];

@@ -129,8 +129,7 @@ impl<const D: usize> Probe<D> for EnergyBudget {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let free = &world.free;
-        let mass = free.get(fields::MASS)?;
-        let velocity = free.get(fields::VELOCITY)?;
+        let (mass, velocity) = free.all((fields::MASS, fields::VELOCITY))?;
         let position = free.get(fields::POSITION)?;
         let sum = |field| -> Result<f64, StepError> { Ok(free.get(field)?.iter().sum()) };
         let kinetic = mass.iter().zip(velocity);

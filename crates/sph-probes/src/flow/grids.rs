@@ -204,8 +204,7 @@ impl EnergySpectrum {
     ) -> Result<Vec<Vect<D>>, StepError> {
         let n = self.points;
         let step = side / n as f64;
-        let positions = world.free.get(fields::POSITION)?;
-        let velocities = world.free.get(fields::VELOCITY)?;
+        let (positions, velocities) = world.free.all((fields::POSITION, fields::VELOCITY))?;
         let volumes = world.free.get(fields::VOLUME)?;
         let radius = world.kernel.support_radius();
         let reach = (radius / step).ceil() as i64;

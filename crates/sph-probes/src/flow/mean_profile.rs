@@ -261,8 +261,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
         let mut sums = self.sums()?;
         let (stride, components) = (self.stride::<D>(), self.components::<D>());
         sums.resize(self.layers * stride, 0.0);
-        let positions = world.free.get(fields::POSITION)?;
-        let volumes = world.free.get(fields::VOLUME)?;
+        let (positions, volumes) = world.free.all((fields::POSITION, fields::VOLUME))?;
         let read = self.reader(world)?;
         let mut values = Vec::new();
         for (i, x) in positions.iter().enumerate() {

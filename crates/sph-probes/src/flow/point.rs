@@ -208,8 +208,7 @@ impl<const D: usize> Probe<D> for DisplacementProbe {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let at = point::<D>(&self.at);
-        let position = world.free.get(fields::POSITION)?;
-        let displacement = world.free.get(fields::DISPLACEMENT)?;
+        let (position, displacement) = world.free.all((fields::POSITION, fields::DISPLACEMENT))?;
         let near = position.iter().zip(displacement).filter(|(x, moved)| {
             let start = world.domain.wrapped(*x - *moved);
             // A little more than one spacing: a place on the lattice must not depend on rounding.
@@ -254,8 +253,7 @@ impl<const D: usize> Probe<D> for AngularMomentum {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let about = point::<D>(&self.about);
-        let position = world.free.get(fields::POSITION)?;
-        let velocity = world.free.get(fields::VELOCITY)?;
+        let (position, velocity) = world.free.all((fields::POSITION, fields::VELOCITY))?;
         let mass = world.free.get(fields::MASS)?;
         let mut sum = [0.0; 3];
         for ((x, u), m) in position.iter().zip(velocity).zip(mass) {

@@ -67,8 +67,7 @@ fn fitted_velocity<const D: usize>(
     world: &World<D>,
     x: &Vect<D>,
 ) -> Result<Option<Vect<D>>, StepError> {
-    let positions = world.free.get(fields::POSITION)?;
-    let velocities = world.free.get(fields::VELOCITY)?;
+    let (positions, velocities) = world.free.all((fields::POSITION, fields::VELOCITY))?;
     let volumes = world.free.get(fields::VOLUME)?;
     let points = &world.walls.points;
     let h = world.kernel.smoothing_length();

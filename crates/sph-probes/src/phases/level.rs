@@ -213,8 +213,7 @@ fn column<const D: usize>(
 ) -> Result<Vec<(Vect<D>, f64, usize)>, StepError> {
     let mut foot = carried(world, point(&at[..at.len().min(D - 1)]), follows)?;
     foot[D - 1] = 0.0;
-    let positions = world.free.get(fields::POSITION)?;
-    let volume = world.free.get(fields::VOLUME)?;
+    let (positions, volume) = world.free.all((fields::POSITION, fields::VOLUME))?;
     let radius = world.kernel.support_radius();
     let cell = world.spacing.powi(D as i32);
     let all = positions.iter().zip(volume).enumerate();
@@ -295,7 +294,8 @@ impl Probe<2> for SurfaceSlope {
         let columns = ((last - first) / world.spacing).round().max(0.0);
         // Only of columns that have a particle: the places may be arbitrarily far apart.
         let mut highest: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
-        for x in counted.among(positions) {
+        let all = positions.iter().enumerate();
+        for (_, x) in all.filter(|(k, _)| counted.has(*k)) {
             let along = (x[0] - first) / (last - first) * columns;
             // A negative or too large place is in no column.
             let column = along.floor();

@@ -48,12 +48,6 @@ impl<'a> CountedPhase<'a> {
         }
     }
 
-    /// Those of some values of all particles that belong to particles that count.
-    pub fn among<'v, T>(&'v self, values: &'v [T]) -> impl Iterator<Item = &'v T> {
-        let counted = values.iter().enumerate().filter(|(k, _)| self.has(*k));
-        counted.map(|(_, value)| value)
-    }
-
     pub fn has(&self, k: usize) -> bool {
         match self {
             CountedPhase::All => true,

@@ -160,14 +160,6 @@ pub fn axes(results: &Results) -> impl Iterator<Item = (&[Frontier], Plot)> {
     axes.map(|lines| (lines, plot(results, lines)))
 }
 
-/// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
-fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
-    match frontier.errors.first() {
-        Some(error) => variant.error(error),
-        None => variant.health.density_deviation(),
-    }
-}
-
 fn plot(results: &Results, lines: &[Frontier]) -> Plot {
     let first = &lines[0];
     let mut series = Vec::new();
@@ -181,7 +173,11 @@ fn plot(results: &Results, lines: &[Frontier]) -> Plot {
             };
             let verdict = variant.verdict.as_ref();
             let red = verdict.is_some_and(|v| v.colour == Colour::Red);
-            match ordinate(frontier, variant).filter(|y| y.is_finite()) {
+            let ordinate = match frontier.errors.first() {
+                Some(error) => variant.error(error),
+                None => variant.health.density_deviation(),
+            };
+            match ordinate.filter(|y| y.is_finite()) {
                 // A logarithmic axis cannot show an error of zero.
                 Some(y) => points.push([place, y.max(1e-16)]),
                 None if red => broken.push(place),

@@ -128,9 +128,10 @@ fn facts(results: &Results) -> String {
         ("variants ran with", |o| Some(o.built_with.clone())),
     ];
     for (name, of) in unlike {
-        let all = differing(results, of);
-        if all.len() > 1 {
-            rows.push(row(name, all.join("; ")));
+        let ran = all().filter(|v| v.size.steps > 0);
+        let each: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
+        if each.len() > 1 {
+            rows.push(row(name, Vec::from_iter(each).join("; ")));
         }
     }
     if !results.set.is_empty() {
@@ -141,13 +142,6 @@ fn facts(results: &Results) -> String {
 
 /// A text of where and with what a variant has run, if it is known.
 type PartOfOrigin = fn(&Origin) -> Option<String>;
-
-/// Keys in which the variants that have run differ.
-fn differing(results: &Results, of: PartOfOrigin) -> Vec<String> {
-    let ran = results.variants.iter().filter(|v| v.size.steps > 0);
-    let all: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
-    Vec::from_iter(all)
-}
 
 fn orders(results: &Results) -> String {
     let two = |o: &f64| format!("{o:.2}");

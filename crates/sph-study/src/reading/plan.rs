@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Override, Source, read_text};
-use toml::Table;
 
 use crate::reading::combine::{combinations, fits};
 use crate::reading::mistake::placed;
@@ -68,7 +67,10 @@ impl Study {
         let source = Source::new(text, &path.display().to_string(), &[]);
         let table = source.table();
         let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
-        let file = study_file(&table).map_err(|found| Refused::in_study(&source, &found))?;
+        let file = typed(&table).map_err(|error| match error {
+            RegistryError::Parameters(problems) => Refused::in_study(&source, &problems),
+            other => Refused::at(&source, "", other.to_string()),
+        })?;
         let name = path.file_stem().and_then(|s| s.to_str());
         let folder = path.parent().unwrap_or(Path::new(""));
         let inputs = Inputs {
@@ -222,11 +224,4 @@ pub enum ReadError {
     /// The study has mistakes.
     #[error(transparent)]
     Refused(#[from] Refused),
-}
-
-fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
-    typed(table).map_err(|error| match error {
-        RegistryError::Parameters(problems) => problems,
-        other => vec![SceneProblem::new("", other.to_string())],
-    })
 }

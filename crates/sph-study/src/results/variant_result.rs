@@ -177,9 +177,7 @@ impl Frontier {
 
     /// True if places span so much that they are drawn by their logarithms.
     pub fn is_wide(&self) -> bool {
-        let places = self.places();
-        let least = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = places.iter().copied().fold(0.0, f64::max);
+        let [[least], [most]] = sph_core::bounds(self.places().into_iter().map(|x| [x]));
         least > 0.0 && most / least > 30.0
     }
 }

@@ -251,7 +251,13 @@ pub fn draw_kernels(
 
 fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
     let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| {
-        let curves = kernels.iter().map(|k| curve(&**k, of));
+        let curves = kernels.iter().map(|kernel| {
+            let along = (0..=POINTS).map(|k| kernel.support() * k as f64 / POINTS as f64);
+            Series::line(
+                kernel.name(),
+                along.map(|q| [q, of(&**kernel, q)]).collect(),
+            )
+        });
         plot("r/h [1]", label, curves.collect())
     };
     Panels(vec![
@@ -260,10 +266,4 @@ fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
             -k.normalisation(DIMENSION) * k.derivative(q)
         }),
     ])
-}
-
-fn curve(kernel: &dyn Kernel, of: &dyn Fn(&dyn Kernel, f64) -> f64) -> Series {
-    let end = kernel.support();
-    let along = (0..=POINTS).map(|k| end * k as f64 / POINTS as f64);
-    Series::line(kernel.name(), along.map(|q| [q, of(kernel, q)]).collect())
 }
