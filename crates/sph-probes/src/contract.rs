@@ -53,22 +53,6 @@ pub struct ProbeScene<'a> {
     pub strangers: &'a [&'static str],
 }
 
-/// Quantities that a probe reads and that are computed for such probes only.
-#[derive(Clone, Debug, Default)]
-pub struct Needs<'a> {
-    /// The wall whose force it reads.
-    pub force_on: Option<&'a str>,
-    /// Neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone: where a flow
-    /// is divided, one process computes these.
-    pub around: bool,
-    /// The displacement of the particles.
-    pub displacement: bool,
-    /// The work of all terms on the particles.
-    pub books: bool,
-    /// Names of derived fields.
-    pub fields: Vec<String>,
-}
-
 /// Something measured at every row of the time series.
 pub trait Probe<const D: usize>: Send {
     /// The columns it adds.
@@ -80,9 +64,26 @@ pub trait Probe<const D: usize>: Send {
     fn prepare(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }
-    /// Quantities that are computed for such probes only.
-    fn needs(&self) -> Needs<'_> {
-        Needs::default()
+    /// The wall whose force it reads, which is computed for such probes only.
+    fn needs_force_on(&self) -> Option<&str> {
+        None
+    }
+    /// True if it reads neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone:
+    /// where a flow is divided, one process computes these.
+    fn needs_around(&self) -> bool {
+        false
+    }
+    /// True if it reads the displacement of the particles.
+    fn needs_displacement(&self) -> bool {
+        false
+    }
+    /// True if it reads the work of all terms on the particles.
+    fn needs_books(&self) -> bool {
+        false
+    }
+    /// Names of the derived fields that it reads.
+    fn needs_fields(&self) -> Vec<String> {
+        Vec::new()
     }
     /// The columns of its curves, if it has some: a table is written with every output of fields, `curves/NAME_0003.csv`.
     fn curve_columns(&self) -> Vec<ProbeColumn> {

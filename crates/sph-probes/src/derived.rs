@@ -4,9 +4,7 @@
 //! A scene without them has no column, no stage and no velocity gradient for their sake.
 
 use rayon::prelude::*;
-use sph_core::{
-    Access, BoxTree, Field, Kind, Scalar, Stage, StepError, Tensor, Vect, fields, stage,
-};
+use sph_core::{Access, BoxTree, Field, Kind, Stage, StepError, Tensor, Vect, fields, stage};
 use sph_neighbours::{Around, Values, World, walk, walk_some};
 
 sph_core::fields! {
@@ -21,20 +19,16 @@ sph_core::fields! {
     /// τ = η γ̇ with the viscosity of law and eddies; of an elastic law the viscous part alone.
     pub SHEAR_STRESS: Scalar = "shear_stress", "Pa",
         "viscosity times the magnitude of the strain rate; the viscous part alone";
+    pub SURFACE_DISTANCE: Scalar = "surface_distance", "m",
+        "distance to the nearest particle at a free surface, plus half a spacing";
 }
-
-/// Fields of this page and of the core that are made from the velocity gradient.
-const OF_GRADIENTS: [&str; 5] = [
-    "velocity_gradient",
-    "strain_rate",
-    "vorticity",
-    "q_criterion",
-    "shear_stress",
-];
 
 /// True if a field of that name needs the gradient of the velocity.
 pub fn needs_gradient(name: &str) -> bool {
-    OF_GRADIENTS.contains(&name)
+    matches!(
+        name,
+        "velocity_gradient" | "strain_rate" | "vorticity" | "q_criterion" | "shear_stress"
+    )
 }
 
 /// Names of the fields on request besides those that the plugins of a scene write.
@@ -93,13 +87,6 @@ fn of_one<const D: usize, F: Kind + Send, K: Kind + Send>(
         Ok(world.free.put(field, values)?)
     }))
 }
-
-/// Distance to the nearest free surface, m.
-pub const SURFACE_DISTANCE: Field<Scalar> = Field::new(
-    "surface_distance",
-    "m",
-    "distance to the nearest particle at a free surface, plus half a spacing",
-);
 
 /// Share of a full support, ΣVw/γ, above which a particle is not at a surface, however its neighbours stand.
 const FULL: f64 = 0.9;

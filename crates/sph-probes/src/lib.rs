@@ -18,7 +18,7 @@ mod phases;
 mod sampling;
 mod solutions;
 
-pub use contract::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry};
+pub use contract::{Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry};
 pub use derived::{
     SURFACE_DISTANCE, derived_fields, derived_stages, needs_gradient, surface_distance,
 };

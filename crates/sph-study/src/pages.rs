@@ -1,6 +1,5 @@
 //! Results as tables, plots and a page.
 
-mod grid;
 pub mod matrix;
 pub mod plots;
 pub mod report;

@@ -20,31 +20,25 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// All that came out of a study.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Results {
-    /// Layout of this file.
-    pub schema_version: u32,
-    /// Name of the study.
-    pub study: String,
+    pub(crate) schema_version: u32,
+    pub(crate) study: String,
     /// Title of the study.
     pub title: String,
-    /// Subject of the study.
-    pub description: Option<String>,
-    /// Name of the scene.
-    pub scene: String,
-    /// Text of the study file.
-    pub definition: String,
+    pub(crate) description: Option<String>,
+    pub(crate) scene: String,
+    pub(crate) definition: String,
     /// Settings put on top of every variant, as of `--set`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// Judged errors, the first one by plots.
-    pub errors: Vec<String>,
-    /// Names of the axes.
-    pub axes: Vec<String>,
+    pub(crate) errors: Vec<String>,
+    pub(crate) axes: Vec<String>,
     /// Key over which orders are computed.
-    pub refinement: Option<String>,
+    pub(crate) refinement: Option<String>,
     /// References whose means are plotted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub means: Option<MeansPlot>,
+    pub(crate) means: Option<MeansPlot>,
     /// True if variants ran one by one.
-    pub serial: bool,
+    pub(crate) serial: bool,
     /// Machine and program of the last run.
     #[serde(flatten)]
     pub origin: Origin,
@@ -56,7 +50,7 @@ pub struct Results {
     /// Variants that differ in their refinement only.
     pub series: Vec<SeriesResult>,
     /// Variants that no other one beats in both error and time, fastest first.
-    pub pareto: Vec<String>,
+    pub(crate) pareto: Vec<String>,
     /// Costs against the number of particles, of studies that have them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,

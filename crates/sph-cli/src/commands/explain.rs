@@ -10,7 +10,7 @@ use crate::arguments::ExplainArguments;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::{
-    CommandOutput, Trouble, columns, listed, memory, paragraphs, parameters, row, table,
+    CommandOutput, Trouble, columns, headed, listed, memory, paragraphs, parameters, row, table,
     table_and_below,
 };
 
@@ -105,11 +105,8 @@ fn text(e: &Examination) -> String {
 
 /// Choices that the scene leaves to its flow, with the reasons.
 fn suited(choices: &[(&'static str, &'static str)]) -> String {
-    if choices.is_empty() {
-        return String::new();
-    }
     let rows = choices.iter().map(|(key, reason)| row(key, *reason));
-    "\nleft to the flow, with the reason\n".to_string() + &columns(2, rows)
+    headed("\nleft to the flow, with the reason", columns(2, rows))
 }
 
 fn plugins(plugins: &[PluginInForce]) -> String {

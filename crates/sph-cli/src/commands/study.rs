@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use sph_core::{comma_list, suggestion};
-use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
+use sph_study::{
+    Options, Origin, ReadError, Results, SceneText, Status, Study, compare, execute, rows,
+};
 
 use crate::arguments::StudyArguments;
 use crate::scene_file::{allowed, find, overrides};
@@ -141,7 +143,8 @@ fn read(
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
     let all = study.variants.iter().zip(&watcher.open);
     for (variant, _) in all.filter(|(_, open)| **open) {
-        watcher.assembled(variant, study.assemble(variant)?);
+        let work = study.assemble(variant).map_err(ReadError::from)?;
+        watcher.assembled(variant, work);
     }
     Ok(())
 }

@@ -11,12 +11,7 @@ use mpi::traits::{Communicator, CommunicatorCollectives};
 use sph_neighbours::decomposition::{Transport, TransportError};
 
 /// Variables that launchers set for the processes that they start: Open MPI, MPICH and its kin, Slurm.
-const SIGNS: [&str; 4] = [
-    "OMPI_COMM_WORLD_SIZE",
-    "PMIX_RANK",
-    "PMI_SIZE",
-    "MPI_LOCALNRANKS",
-];
+const SIGNS: &str = "OMPI_COMM_WORLD_SIZE PMIX_RANK PMI_SIZE MPI_LOCALNRANKS";
 
 /// The job; MPI ends with it.
 pub struct Job {
@@ -30,7 +25,10 @@ impl Job {
     ///
     /// Threads of the process may call MPI in turns (`MPI_THREAD_SERIALIZED`). A panic ends the whole job.
     pub fn join() -> Option<Self> {
-        if !SIGNS.iter().any(|sign| std::env::var_os(sign).is_some()) {
+        if SIGNS
+            .split(' ')
+            .all(|sign| std::env::var_os(sign).is_none())
+        {
             return None;
         }
         let (universe, _) = mpi::initialize_with_threading(Threading::Serialized)?;

@@ -165,8 +165,7 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
 
 struct Meter {
     at: Instant,
-    time: f64,
-    step: u64,
+    last: Progress,
     /// Simulated seconds per second.
     time_rate: Option<f64>,
     /// Particle-steps per second.
@@ -177,8 +176,7 @@ impl Meter {
     fn new(progress: &Progress) -> Self {
         Meter {
             at: Instant::now(),
-            time: progress.time,
-            step: progress.step,
+            last: progress.clone(),
             time_rate: None,
             work_rate: None,
         }
@@ -186,19 +184,14 @@ impl Meter {
 
     fn update(&mut self, progress: &Progress) {
         let seconds = self.at.elapsed().as_secs_f64();
-        if progress.step == self.step || seconds <= 0.0 {
+        if progress.step == self.last.step || seconds <= 0.0 {
             return;
         }
         let weight = 1.0 - (-seconds / MEMORY).exp();
         let blend = |old: Option<f64>, new: f64| Some(old.map_or(new, |o| o + weight * (new - o)));
-        let steps = (progress.step - self.step) as f64;
-        self.time_rate = blend(self.time_rate, (progress.time - self.time) / seconds);
+        let steps = (progress.step - self.last.step) as f64;
+        self.time_rate = blend(self.time_rate, (progress.time - self.last.time) / seconds);
         self.work_rate = blend(self.work_rate, steps * progress.particles as f64 / seconds);
-        *self = Meter {
-            at: Instant::now(),
-            time: progress.time,
-            step: progress.step,
-            ..*self
-        };
+        (self.at, self.last) = (Instant::now(), progress.clone());
     }
 }

@@ -8,7 +8,7 @@ use sph_io::curves::DrawError;
 use sph_particles::RunError;
 use sph_scene::Source;
 use sph_solver::SolverError;
-use sph_study::{Mistake, ReadError, Refused};
+use sph_study::{Mistake, ReadError};
 
 use crate::terminal::{console, diagnostics};
 
@@ -43,15 +43,9 @@ impl From<String> for Trouble {
 impl From<ReadError> for Trouble {
     fn from(error: ReadError) -> Self {
         match error {
-            ReadError::Refused(refused) => refused.into(),
+            ReadError::Refused(refused) => Trouble::Scene(refused.mistakes),
             other => Trouble::Usage(other.to_string()),
         }
-    }
-}
-
-impl From<Refused> for Trouble {
-    fn from(refused: Refused) -> Self {
-        Trouble::Scene(refused.mistakes)
     }
 }
 

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, bounds, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Three curves over a movable bed, moving mass of it (kg, per metre of width), and lowest point of the motion (m).
 ///
@@ -207,11 +207,8 @@ impl Probe<2> for Line {
         Ok(())
     }
 
-    fn needs(&self) -> Needs<'_> {
-        Needs {
-            displacement: self.of == LineOf::Failure,
-            ..Needs::default()
-        }
+    fn needs_displacement(&self) -> bool {
+        self.of == LineOf::Failure
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
-use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -184,13 +184,10 @@ impl<const D: usize> Probe<D> for MeanProfile {
         Ok(())
     }
 
-    fn needs(&self) -> Needs<'_> {
-        Needs {
-            fields: (self.field.iter())
-                .filter_map(|name| Quantity::named(name).column().map(String::from))
-                .collect(),
-            ..Needs::default()
-        }
+    fn needs_fields(&self) -> Vec<String> {
+        (self.field.iter())
+            .filter_map(|name| Quantity::named(name).column().map(String::from))
+            .collect()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

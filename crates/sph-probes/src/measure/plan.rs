@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use super::quantity::{AXES, Quantity, Reduce, WeightedValues};
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Needs, Probe, ProbeColumn, ProbeScene, norm};
+use crate::{Probe, ProbeColumn, ProbeScene, norm};
 
 /// Bounds on a quantity, the lower and the upper one: a particle on a bound does not count.
 pub(crate) type QuantityBounds = (Quantity, [f64; 2]);
@@ -167,15 +167,12 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
         Ok(())
     }
 
-    fn needs(&self) -> Needs<'static> {
+    fn needs_fields(&self) -> Vec<String> {
         let of_conditions = self.conditions.iter().map(|(of, _)| of);
         let all = self.columns.iter().map(|column| &column.of);
         let all = all.chain(of_conditions).chain(&self.weight);
         let fields = all.filter_map(|of| Some(of.column()?.to_string()));
-        Needs {
-            fields: fields.collect(),
-            ..Needs::default()
-        }
+        fields.collect()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

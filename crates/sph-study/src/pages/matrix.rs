@@ -6,7 +6,7 @@ use sph_core::{comma_list, number};
 use sph_io::{IoError, Plot, Series, Style, escape};
 use sph_run::Trouble;
 
-use crate::pages::grid::grid;
+use crate::pages::plots::grid;
 use crate::{Colour, Frontier, Results, Status, VariantResult};
 
 /// All between the head of the page and the study file.

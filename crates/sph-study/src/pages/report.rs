@@ -7,7 +7,7 @@ use std::path::Path;
 use sph_core::{comma_list, number};
 use sph_io::{IoError, Plot, escape, write_whole};
 
-use crate::pages::grid::{grid, plain_grid};
+use crate::pages::plots::{grid, plain_grid};
 use crate::pages::{matrix, plots, table};
 use crate::reading::combine::safe;
 use crate::{Origin, Results, Scale, Status};

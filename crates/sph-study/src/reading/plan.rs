@@ -18,18 +18,16 @@ pub struct Study {
     pub name: String,
     /// The file.
     pub file: StudyFile,
-    /// Name of the scene.
-    pub scene: String,
+    pub(crate) scene: String,
     /// Names of the references that are judged, the first one by plots.
     pub errors: Vec<String>,
-    /// The axes.
-    pub axes: Vec<StudyAxis>,
+    pub(crate) axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
-    pub refinement: Option<String>,
+    pub(crate) refinement: Option<String>,
     /// Axes that are gone along until they break, instead of varied values.
     pub ladders: Vec<Ladder>,
     /// Settings put on top of every variant, as of `--set`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
     source: Source,

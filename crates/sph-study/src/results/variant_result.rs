@@ -12,45 +12,33 @@ use crate::{
 /// Results of a variant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct VariantResult {
-    /// Name, which is that of its folder.
-    pub name: String,
-    /// Label by axis.
-    pub values: BTreeMap<String, String>,
-    /// Value of the refinement's key.
-    pub refinement: Option<f64>,
+    pub(crate) name: String,
+    pub(crate) values: BTreeMap<String, String>,
+    pub(crate) refinement: Option<f64>,
     /// The way it ended.
     pub status: Status,
     /// The error, if it did not end well.
-    pub reason: Option<String>,
+    pub(crate) reason: Option<String>,
     /// Green, yellow or red, of a run along an axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Soundness of the run.
+    pub(crate) verdict: Option<Verdict>,
     #[serde(default)]
-    pub health: Health,
-    /// All errors against the scene's references.
-    pub errors: BTreeMap<String, Error>,
+    pub(crate) health: Health,
+    pub(crate) errors: BTreeMap<String, Error>,
     /// Observed order between this and the next coarser variant, of the first judged error.
-    pub order: Option<f64>,
-    /// Wall-clock times.
-    pub wall_seconds: WallSeconds,
-    /// Size of the run.
+    pub(crate) order: Option<f64>,
+    pub(crate) wall_seconds: WallSeconds,
     #[serde(flatten)]
-    pub size: RunSize,
-    /// The bound that limited most steps.
-    pub dt_limiter: Option<String>,
-    /// Share of the steps limited by each bound.
-    pub dt_limiters: BTreeMap<String, f64>,
-    /// Effort of implicit solves.
+    pub(crate) size: RunSize,
+    pub(crate) dt_limiter: Option<String>,
+    pub(crate) dt_limiters: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub solves: Option<SolveCost>,
+    pub(crate) solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
-    pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// Machine and program of the run.
+    pub(crate) wall_seconds_by_stage: BTreeMap<String, f64>,
     #[serde(flatten)]
-    pub origin: Origin,
-    /// Data on which the result depends.
-    pub fingerprint: String,
+    pub(crate) origin: Origin,
+    pub(crate) fingerprint: String,
 }
 
 /// Wall-clock times of the repetitions, s.

@@ -56,32 +56,27 @@ impl Status {
 pub struct Record {
     /// The way it ended.
     pub status: Status,
-    /// Data on which the result depends.
-    pub fingerprint: String,
+    pub(crate) fingerprint: String,
     /// The error, or the exceeded limit.
     pub reason: Option<String>,
     /// Time limit in force, s.
-    pub time_limit: Option<f64>,
-    /// Errors against the scene's references.
-    pub errors: BTreeMap<String, Error>,
+    pub(crate) time_limit: Option<f64>,
+    pub(crate) errors: BTreeMap<String, Error>,
     /// Wall-clock seconds of every repetition.
-    pub wall_seconds: Vec<f64>,
+    pub(crate) wall_seconds: Vec<f64>,
     /// Wall-clock seconds of the repetition under way, s.
-    pub spent: f64,
-    /// Size of the last repetition.
+    pub(crate) spent: f64,
     #[serde(flatten)]
-    pub size: RunSize,
+    pub(crate) size: RunSize,
     /// Share of the steps limited by each bound.
-    pub dt_limiters: BTreeMap<String, f64>,
-    /// Its soundness.
-    pub health: Health,
+    pub(crate) dt_limiters: BTreeMap<String, f64>,
+    pub(crate) health: Health,
     /// Effort of implicit solves in the last repetition.
-    pub solves: Option<SolveCost>,
+    pub(crate) solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
-    pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// Machine and program of the run.
+    pub(crate) wall_seconds_by_stage: BTreeMap<String, f64>,
     #[serde(flatten)]
-    pub origin: Origin,
+    pub(crate) origin: Origin,
 }
 
 /// Size of a run.
