@@ -114,13 +114,12 @@ pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<O
     })
 }
 
+/// A scene, and the folder that its data were unpacked to.
+pub type FoundScene = (SceneText, Option<Scratch>);
+
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
 /// allowed one, or by the name of a shipped one, beside which all shipped data lie as long as the folder is kept.
-pub fn find(
-    folder: &Path,
-    scene: &str,
-    allowed: &[PathBuf],
-) -> Result<(SceneText, Option<Scratch>), String> {
+pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<FoundScene, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let found = located(&path, scene, None)?;
     let scene = SceneText {

@@ -10,9 +10,6 @@ use crate::derived::images_of;
 /// The free particles within the support of a place, by number, with the way from them to it and V w.
 ///
 /// It walks over all particles: probes are few, and no list exists for them.
-///
-/// # Errors
-/// If a column is missing.
 fn around<const D: usize>(
     world: &World<D>,
     x: Vect<D>,
@@ -29,9 +26,6 @@ fn around<const D: usize>(
 
 /// Σ V q w / Σ V w at a place, of a quantity q by the number of a particle and the way from it; zero where there is no
 /// particle.
-///
-/// # Errors
-/// If a column is missing.
 pub(crate) fn mean_around<const D: usize, const N: usize>(
     world: &World<D>,
     x: Vect<D>,
@@ -62,9 +56,6 @@ pub(crate) struct NearbyParticles {
 
 impl NearbyParticles {
     /// Those within `supports` radii of the box between two corners.
-    ///
-    /// # Errors
-    /// If a column is missing.
     pub fn new(
         world: &World<2>,
         low: Vect<2>,

@@ -4,10 +4,9 @@ use sph_core::Vect;
 
 mod bingham_poiseuille;
 mod channels;
-mod elastic;
 mod free_bodies;
+mod periodic;
 mod soils;
-mod taylor_green;
 
 /// A velocity along an axis, m/s.
 fn along<const D: usize>(axis: usize, speed: f64) -> Option<Vect<D>> {

@@ -13,7 +13,7 @@ use crate::arguments::CheckArguments;
 use crate::commands::draw::picture;
 use crate::commands::{grains, mesh};
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::{CommandOutput, Trouble, memory, quantities, row, sections};
+use crate::terminal::{CommandOutput, Rows, Trouble, memory, quantities, row, sections};
 
 /// Above this Mach number the fluid is not nearly incompressible; the default is on it, but for rounding.
 const MACH: f64 = 0.1 * (1.0 + 1e-9);
@@ -190,11 +190,7 @@ fn zone_row(zone: &ZoneSize) -> Vec<String> {
     row(&zone.name, size)
 }
 
-fn estimate_rows(
-    e: &Examination,
-    time: &str,
-    alternatives: Option<&Alternatives>,
-) -> Vec<Vec<String>> {
+fn estimate_rows(e: &Examination, time: &str, alternatives: Option<&Alternatives>) -> Rows {
     let cost = &e.estimate;
     let mut rows = vec![
         row("steps", number::count(cost.steps)),

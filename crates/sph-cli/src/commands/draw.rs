@@ -94,11 +94,10 @@ pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
 pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
     match kinds.contains(&out.extension().and_then(|e| e.to_str()).unwrap_or_default()) {
         true => Ok(out),
-        false => Err(Trouble::usage(format!(
-            "--{option} {}: it must end in .{}",
-            out.display(),
-            kinds.join(" or .")
-        ))),
+        false => {
+            let (out, kinds) = (out.display(), kinds.join(" or ."));
+            Err(format!("--{option} {out}: it must end in .{kinds}").into())
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use sph_particles::{ErrorEntry, Failure, Findings, ParticleRecord, Share, Summar
 use sph_run::Status;
 
 use crate::commands::file_list;
-use crate::terminal::{columns, headed, memory, remarks, row, table};
+use crate::terminal::{Rows, columns, headed, memory, remarks, row, table};
 
 pub fn text(summary: &Summary, out: &Path) -> String {
     let heads = "name, value, norm, against, samples";
@@ -46,7 +46,7 @@ pub fn limited_by(shares: &BTreeMap<String, f64>) -> String {
     comma_list(limiters.map(|(name, share)| format!("{name} {}", number::percent(*share))))
 }
 
-fn cost(s: &Summary) -> Vec<Vec<String>> {
+fn cost(s: &Summary) -> Rows {
     let [particles, points] = [s.particles, s.wall_points].map(|n| number::count(n as f64));
     let steps = number::count(s.steps as f64);
     let end = number::plain(s.simulated_seconds);
@@ -105,9 +105,7 @@ pub fn failure(failure: &Failure) -> String {
         n => format!("after {n} roll-backs"),
     };
     let (dt, limiter) = (found.dt, &found.limiter);
-    text.push_str(&format!(
-        "the step\n  Δt = {dt:.3e} s, bound `{limiter}`, {tried}\n"
-    ));
+    text += &format!("the step\n  Δt = {dt:.3e} s, bound `{limiter}`, {tried}\n");
     text.push_str(&headed("what may help", remarks(&found.advice)));
     let titles = [
         "a picture of the bad state",
@@ -128,12 +126,7 @@ fn suspect(suspect: &Suspect) -> String {
         true => "the particle",
         false => "the particle with the largest acceleration",
     };
-    let Suspect {
-        number,
-        body,
-        phase,
-        ..
-    } = suspect;
+    let (number, body, phase) = (suspect.number, &suspect.body, &suspect.phase);
     let mut text = format!("{named}\n  number {number} of body `{body}`, phase `{phase}`\n");
     for (when, seen) in [("before", &suspect.before), ("failed", &suspect.after)] {
         text.extend(seen.iter().map(|seen| sighting(when, seen)));

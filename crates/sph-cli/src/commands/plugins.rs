@@ -154,11 +154,8 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
         text.push_str(&paragraph(8, WIDTH, &line));
     }
     if !parameter.source.is_empty() {
-        text.push_str(&paragraph(
-            6,
-            WIDTH,
-            &format!("source: {}", parameter.source),
-        ));
+        let source = format!("source: {}", parameter.source);
+        text.push_str(&paragraph(6, WIDTH, &source));
     }
     text
 }

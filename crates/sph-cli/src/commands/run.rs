@@ -18,7 +18,6 @@ use crate::{interrupt, ranks};
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let out = folder(arguments, &opened);
-    look_before_writing(arguments, &out)?;
     let start = format!("{}: running into {}", opened.scene.card().0, out.display());
     let noun = match opened.scene {
         AnyScene::Particles(_) => "particle",
@@ -51,7 +50,11 @@ pub fn execute(
     observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
     let out = folder(arguments, opened);
-    look_before_writing(arguments, &out)?;
+    // Before the folder is touched.
+    if arguments.resume && !out.join(CHECKPOINT).is_file() {
+        let why = "to resume from: start without --resume";
+        return Err(format!("there is no checkpoint in {} {why}", out.display()).into());
+    }
     match &opened.scene {
         AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
         AnyScene::Grains(loaded) => grains(arguments, loaded, &out, observer),
@@ -115,15 +118,11 @@ fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> 
 }
 
 /// The end of a run whose summary is a text, with the time (s) and the step that it reached.
-fn ended(
-    summary: &impl Serialize,
-    text: String,
-    (status, time, steps): (Status, f64, u64),
-) -> Ended {
+fn ended(found: &impl Serialize, text: String, (status, time, step): (Status, f64, u64)) -> Ended {
     let stopped = status != Status::Done;
     Ended {
-        interrupted: stopped.then_some((time, steps)),
-        told: CommandOutput::new(summary, text),
+        interrupted: stopped.then_some((time, step)),
+        told: CommandOutput::new(found, text),
     }
 }
 
@@ -149,15 +148,6 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
         return Err(format!("{} {why}", out.display()).into());
     }
     Ok(Start::From(file))
-}
-
-/// Refusals before the folder is touched.
-fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
-    if arguments.resume && !out.join(CHECKPOINT).is_file() {
-        let why = "to resume from: start without --resume";
-        return Err(format!("there is no checkpoint in {} {why}", out.display()).into());
-    }
-    Ok(())
 }
 
 fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), Trouble> {

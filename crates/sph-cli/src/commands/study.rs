@@ -12,14 +12,11 @@ use sph_study::{
 };
 
 use crate::arguments::StudyArguments;
-use crate::scene_file::{allowed, find, overrides};
+use crate::scene_file::{FoundScene, allowed, find, overrides};
 use crate::shipped::Content;
 use crate::terminal::study_progress::Watcher;
 use crate::terminal::{CommandOutput, Trouble, columns, console, shell};
 use crate::{interrupt, shipped};
-
-/// A scene, and the folder that its data were unpacked to.
-type FoundScene = (SceneText, Option<sph_io::Scratch>);
 
 /// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;

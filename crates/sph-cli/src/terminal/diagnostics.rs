@@ -103,15 +103,10 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 
 pub fn json(all: &[Mistake]) -> Json {
     let all = all.iter().map(|l| {
-        let Diagnostic {
-            file,
-            line,
-            column,
-            path,
-            message,
-            ..
-        } = &l.diagnostic;
-        json!({ "file": file, "line": line, "column": column, "path": path, "message": message })
+        let d = &l.diagnostic;
+        json!({
+            "file": d.file, "line": d.line, "column": d.column, "path": d.path, "message": d.message,
+        })
     });
     all.collect()
 }

@@ -7,6 +7,9 @@ use sph_particles::setup::Memory;
 /// Longest line of prose.
 pub const WIDTH: usize = 98;
 
+/// Rows of cells.
+pub type Rows = Vec<Vec<String>>;
+
 /// Rows as columns with two spaces between; the last column is not padded.
 pub fn columns(indent: usize, rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
@@ -31,7 +34,7 @@ pub fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![name.to_string(), value.into()]
 }
 
-pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Vec<Vec<String>> {
+pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Rows {
     let value = |x: f64, unit: &T| number::plain(x) + &unit_suffix(unit.as_ref());
     let row = |(name, x, unit): &(T, f64, T)| row(name.as_ref(), value(*x, unit));
     all.iter().map(row).collect()
@@ -54,10 +57,7 @@ pub fn table_and_below(heads: &str, rows: impl Iterator<Item = (Vec<String>, Str
 }
 
 /// Titles with their rows, but for those without rows, and warnings, if there are any.
-pub fn sections<const N: usize>(
-    parts: [(&str, Vec<Vec<String>>); N],
-    warnings: &[String],
-) -> String {
+pub fn sections<const N: usize>(parts: [(&str, Rows); N], warnings: &[String]) -> String {
     let block = |title: &str, lines| headed(&format!("\n{title}"), lines);
     let parts = parts.map(|(title, rows)| block(title, columns(2, rows)));
     parts.concat() + &block("warnings", remarks(warnings))

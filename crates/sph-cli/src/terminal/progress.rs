@@ -157,9 +157,7 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
     };
     // The most frequent choice comes first: a narrow terminal cuts the end.
     let [time, end] = [progress.time, progress.end].map(number::plain);
-    let Progress {
-        dt, limiter, step, ..
-    } = progress;
+    let (dt, limiter, step) = (progress.dt, &progress.limiter, progress.step);
     format!("t = {time} of {end} s{left}  Δt {dt:.1e} s ({limiter})  {speed}  step {step}")
 }
 

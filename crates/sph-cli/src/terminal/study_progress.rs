@@ -67,9 +67,8 @@ impl<'s> Watcher<'s> {
         let to_run = open.iter().filter(|o| **o).count();
         let (title, all) = (&study.file.title, study.variants.len());
         let out = options.out.display();
-        display.say(&format!(
-            "{title}: {all} variants, {to_run} to run, into {out}"
-        ));
+        let text = format!("{title}: {all} variants, {to_run} to run, into {out}");
+        display.say(&text);
         Watcher {
             study,
             display,

@@ -51,7 +51,7 @@ impl Profile {
             .unwrap_or_else(Vect::zeros);
         let component = self.component as usize;
         let rows = self.reference.iter().map(|[s, e]| {
-            let u = fitted_velocity(world, &(from + along * *s))?;
+            let u = fitted(world, &(from + along * *s))?;
             let u = u.map_or(f64::NAN, |u| u.get(component).copied().unwrap_or(0.0));
             Ok([*s, u, *e])
         });
@@ -63,10 +63,7 @@ impl Profile {
 const LEAST: f64 = 1e-6;
 
 /// The velocity at a place by a linear fit of the particles around; none where there is no particle.
-fn fitted_velocity<const D: usize>(
-    world: &World<D>,
-    x: &Vect<D>,
-) -> Result<Option<Vect<D>>, StepError> {
+fn fitted<const D: usize>(world: &World<D>, x: &Vect<D>) -> Result<Option<Vect<D>>, StepError> {
     let (positions, velocities) = world.free.all((fields::POSITION, fields::VELOCITY))?;
     let volumes = world.free.get(fields::VOLUME)?;
     let points = &world.walls.points;

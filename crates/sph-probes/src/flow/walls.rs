@@ -97,11 +97,8 @@ impl<const D: usize> Probe<D> for WallMotionProbe {
             2 => &[(".angle", "rad")][..],
             _ => &[(".rx", "rad"), (".ry", "rad"), (".rz", "rad")],
         };
-        [
-            ProbeColumn::components(D, "m"),
-            ProbeColumn::several(angles),
-        ]
-        .concat()
+        let shift = ProbeColumn::components(D, "m");
+        [shift, ProbeColumn::several(angles)].concat()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

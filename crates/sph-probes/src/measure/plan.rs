@@ -94,10 +94,7 @@ impl MeasuringProbe {
     }
 
     /// The numbers of the particles of the phase that fulfil all conditions, and of all particles of the phase.
-    fn counted<const D: usize>(
-        &self,
-        world: &World<D>,
-    ) -> Result<(Vec<usize>, Vec<usize>), StepError> {
+    fn counted<const D: usize>(&self, world: &World<D>) -> Result<[Vec<usize>; 2], StepError> {
         let phase = CountedPhase::in_phase(world, self.phase.as_deref(), self.number)?;
         let of_phase: Vec<usize> = (0..world.free.len()).filter(|k| phase.has(*k)).collect();
         let mut all = of_phase.clone();
@@ -105,7 +102,7 @@ impl MeasuringProbe {
             let (value, _) = of.values(world)?;
             all.retain(|k| value(*k) > *above && value(*k) < *below);
         }
-        Ok((all, of_phase))
+        Ok([all, of_phase])
     }
 
     /// The columns of the particles that count, of a phase with so much weight.
@@ -176,7 +173,7 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let (all, of_phase) = self.counted(world)?;
+        let [all, of_phase] = self.counted(world)?;
         let mut columns = self.reduced(world, (&all, &of_phase))?;
         if let Some(axis) = self.fitted {
             let (value, _) = self.columns[0].of.values(world)?;
@@ -208,7 +205,7 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
             return Ok(Vec::new());
         };
         let (axis, width) = (axis.min(D - 1), spacings * world.spacing);
-        let (all, of_phase) = self.counted(world)?;
+        let [all, of_phase] = self.counted(world)?;
         let positions = world.free.get(fields::POSITION)?;
         let slice = |k: &usize| (positions[*k][axis] / width).floor() as i64;
         let mut slices: std::collections::BTreeMap<i64, Vec<usize>> = Default::default();

@@ -274,10 +274,8 @@ mod tests {
         ];
         for (z, number, share) in table {
             let found = layer.excess(2.0 * (1.0 - z), number * 4.0 / 0.5);
-            assert!(
-                (found / 100.0 - share).abs() < 1e-6,
-                "{z} {number}: {found}"
-            );
+            let off = found / 100.0 - share;
+            assert!(off.abs() < 1e-6, "{z} {number}: {found}");
         }
     }
 }

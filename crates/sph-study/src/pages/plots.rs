@@ -1,7 +1,6 @@
 //! Plots of a study, error against time and against refinement, and tables of pages.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use sph_core::some_unit;
 use sph_io::{Plot, Series, Style, escape};
@@ -166,12 +165,12 @@ pub(crate) fn grid<H: AsRef<str>>(
     }
     let mut text = String::from("<div class=\"wide\"><table>\n");
     if !heads.is_empty() {
-        let _ = writeln!(text, "<tr>{}</tr>", cells(heads, "th"));
+        text += &format!("<tr>{}</tr>\n", cells(heads, "th"));
     }
     for (k, row) in rows.iter().enumerate() {
-        let _ = match class(k).as_str() {
-            "" => writeln!(text, "<tr>{}</tr>", cells(row, "td")),
-            class => writeln!(text, "<tr class=\"{class}\">{}</tr>", cells(row, "td")),
+        text += &match class(k).as_str() {
+            "" => format!("<tr>{}</tr>\n", cells(row, "td")),
+            class => format!("<tr class=\"{class}\">{}</tr>\n", cells(row, "td")),
         };
     }
     text + "</table></div>\n"

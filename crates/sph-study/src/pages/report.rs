@@ -1,7 +1,6 @@
 //! Files that a study leaves: `report.html` has all of it on one page that needs no other file.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::Path;
 
 use sph_core::{comma_list, number};
@@ -16,28 +15,22 @@ use crate::{Origin, Results, Scale, Status};
 const STYLE: &str = include_str!("../../templates/report.css");
 
 fn html(results: &Results) -> Result<String, IoError> {
-    let mut page = String::new();
     let title = escape(&results.title);
-    let _ = writeln!(
-        page,
+    let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n",
     );
     if let Some(description) = &results.description {
-        let _ = writeln!(page, "<p>{}</p>", marked(&words(description)));
+        page += &format!("<p>{}</p>\n", marked(&words(description)));
     }
     page.push_str(&facts(results));
     match results.frontiers.is_empty() {
         true => page.push_str(&compared(results)?),
         false => page.push_str(&matrix::body(results)?),
     }
-    let _ = writeln!(
-        page,
-        "<h2>Study file</h2>\n<pre>{}</pre>\n</body>\n</html>",
-        lines(&results.definition)
-    );
-    Ok(page)
+    let lines = lines(&results.definition);
+    Ok(page + &format!("<h2>Study file</h2>\n<pre>{lines}</pre>\n</body>\n</html>\n"))
 }
 
 fn compared(results: &Results) -> Result<String, IoError> {

@@ -87,9 +87,6 @@ fn seconds(v: &VariantResult) -> Option<String> {
 }
 
 /// Writes one row of plain numbers per variant.
-///
-/// # Errors
-/// If the file cannot be written.
 pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
     let errors = errors(results);
     let rows = with_heads(results.variants.iter().map(|v| plain(results, &errors, v)));
@@ -110,6 +107,8 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
     row.extend((errors.iter()).map(|e| (format!("error.{e}"), number(v.error(e)))));
     let (health, verdict, solves) = (&v.health, v.verdict.as_ref(), v.solves.as_ref());
     let trouble = health.first_trouble.as_ref();
+    let trouble = trouble.map_or(String::new(), matrix::trouble);
+    let density = |k: usize| number(health.density_range.map(|range| range[k]));
     let rest = [
         ("order", number(v.order)),
         ("wall_seconds", number(v.wall_seconds.min)),
@@ -124,18 +123,12 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
         ("dt_limiter", v.dt_limiter.clone().unwrap_or_default()),
         ("colour", verdict.map_or("", |v| v.colour.name()).into()),
         ("why", verdict.map_or(String::new(), |v| v.why.clone())),
-        (
-            "first_trouble",
-            trouble.map_or(String::new(), matrix::trouble),
-        ),
+        ("first_trouble", trouble),
         ("energy_drift", number(health.energy_drift)),
         ("energy_rise", number(health.energy_rise)),
         ("momentum_drift", number(health.momentum_drift)),
-        ("least_density", number(health.density_range.map(|r| r[0]))),
-        (
-            "largest_density",
-            number(health.density_range.map(|r| r[1])),
-        ),
+        ("least_density", density(0)),
+        ("largest_density", density(1)),
         ("mach", number(health.mach)),
         ("escaped", health.escaped.to_string()),
         ("reason", v.reason.clone().unwrap_or_default()),

@@ -152,10 +152,8 @@ fn varied(inputs: Inputs<'_>) -> Result<Study, Refused> {
     let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
     if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
         let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
-        return Err(at(
-            "scaling.between",
-            format!("there is no axis `{name}`{near}"),
-        ));
+        let why = format!("there is no axis `{name}`{near}");
+        return Err(at("scaling.between", why));
     }
     let scene = match &file.scene {
         Some(scene) => (inputs.find)(scene),

@@ -91,14 +91,8 @@ impl Reader<'_> {
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
         let place =
             |scene: &Source, found: &[_]| placed(&self.inputs.source, &given_by, scene, found);
-        let SceneText {
-            text,
-            file,
-            allowed,
-            method,
-            ..
-        } = &*scene;
-        let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
+        let text = Source::new(&scene.text, &scene.file, &overrides).allowing(&scene.allowed);
+        let read = scene.method.read(text);
         let subject = read.map_err(|(source, found)| place(&source, &found))?;
         let mut problems = self.missing_references(&*subject);
         let refinement = self.refinement.as_ref();

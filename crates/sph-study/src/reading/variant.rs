@@ -39,10 +39,8 @@ pub struct Variant {
 pub fn fingerprint(mut scene: Table, marks: &[(String, String)]) -> String {
     scene.remove("title");
     scene.remove("description");
-    let mut text = format!(
-        "sph {VERSION}\n{}",
-        toml::to_string(&scene).unwrap_or_default()
-    );
+    let scene = toml::to_string(&scene).unwrap_or_default();
+    let mut text = format!("sph {VERSION}\n{scene}");
     for (key, content) in marks {
         text.push_str(&format!("{key} {content}\n"));
     }

@@ -106,7 +106,7 @@ pub fn compare(first: &Results, second: &Results) -> Comparison {
 
 fn notes(first: &Results, second: &Results) -> Vec<String> {
     let facts = |r: &Results| {
-        let origin = &r.origin;
+        let (origin, machine) = (&r.origin, "machine, so that times cannot be compared");
         let manner = if r.serial {
             "one by one"
         } else {
@@ -118,10 +118,7 @@ fn notes(first: &Results, second: &Results) -> Vec<String> {
             ("version", origin.version.clone()),
             ("commit", origin.commit.clone().unwrap_or("unknown".into())),
             ("built with", origin.built_with.clone()),
-            (
-                "machine, so that times cannot be compared",
-                origin.machine.to_string(),
-            ),
+            (machine, origin.machine.to_string()),
             ("threads", r.threads()),
             ("variants ran", manner.into()),
         ]

@@ -66,37 +66,32 @@ pub struct SeriesResult {
 }
 
 impl VariantResult {
-    pub(crate) fn new(
-        v: &Variant,
-        record: &Record,
-        judge: Option<&Bounds>,
-        axes: &[String],
-    ) -> Self {
+    pub(crate) fn new(v: &Variant, run: &Record, judge: Option<&Bounds>, axes: &[String]) -> Self {
         VariantResult {
             name: v.name.clone(),
             values: axes.iter().cloned().zip(v.labels.iter().cloned()).collect(),
             refinement: v.refinement,
-            status: record.status,
-            reason: record.reason.clone(),
-            verdict: judge.and_then(|bounds| verdict(record, bounds)),
-            health: record.health.clone(),
-            errors: match record.status {
-                Status::Done => record.errors.clone(),
+            status: run.status,
+            reason: run.reason.clone(),
+            verdict: judge.and_then(|bounds| verdict(run, bounds)),
+            health: run.health.clone(),
+            errors: match run.status {
+                Status::Done => run.errors.clone(),
                 _ => BTreeMap::new(),
             },
             order: None,
             wall_seconds: WallSeconds {
-                min: record.least_seconds(),
-                spread: record.spread(),
-                all: record.wall_seconds.clone(),
-                spent: record.spent,
+                min: run.least_seconds(),
+                spread: run.spread(),
+                all: run.wall_seconds.clone(),
+                spent: run.spent,
             },
-            size: record.size.clone(),
-            dt_limiter: record.limiter().map(String::from),
-            dt_limiters: record.dt_limiters.clone(),
-            solves: record.solves.clone(),
-            wall_seconds_by_stage: record.wall_seconds_by_stage.clone(),
-            origin: record.origin.clone(),
+            size: run.size.clone(),
+            dt_limiter: run.limiter().map(String::from),
+            dt_limiters: run.dt_limiters.clone(),
+            solves: run.solves.clone(),
+            wall_seconds_by_stage: run.wall_seconds_by_stage.clone(),
+            origin: run.origin.clone(),
             fingerprint: v.fingerprint.clone(),
         }
     }

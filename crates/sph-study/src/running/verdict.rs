@@ -138,22 +138,13 @@ mod tests {
         };
         let fine = bounds([0.1, 0.2], [0.5, 1.0]);
         let tight = bounds([0.1, 0.2], [0.1, 0.2]);
+        let [again, behind] = ["2 steps were tried again", "1 particles are behind a wall"];
         for (record, bounds, colour, why) in [
             (record(0.05, 0, 0), &fine, Colour::Green, ""),
             (record(0.15, 0, 0), &fine, Colour::Yellow, "e 0.15 > 0.1"),
             (record(f64::NAN, 0, 0), &fine, Colour::Red, "e NaN > 0.2"),
-            (
-                record(0.05, 2, 0),
-                &fine,
-                Colour::Yellow,
-                "2 steps were tried again",
-            ),
-            (
-                record(0.05, 0, 1),
-                &fine,
-                Colour::Red,
-                "1 particles are behind a wall",
-            ),
+            (record(0.05, 2, 0), &fine, Colour::Yellow, again),
+            (record(0.05, 0, 1), &fine, Colour::Red, behind),
             (record(0.15, 0, 0), &tight, Colour::Red, "density 0.3 > 0.2"),
         ] {
             let found = verdict(&record, bounds).unwrap();

@@ -126,8 +126,8 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     let mut remarks = Vec::new();
     let rows: HashMap<u64, usize> = b.keys.iter().copied().zip(0..).collect();
     let keys = a.keys.iter().enumerate();
-    let pairs = keys.filter_map(|(k, key)| Some((k, *rows.get(key)?)));
-    let pairs: Vec<(usize, usize)> = pairs.collect();
+    let pairs = keys.filter_map(|(k, key)| Some([k, *rows.get(key)?]));
+    let pairs: Vec<[usize; 2]> = pairs.collect();
     let all = a.keys.len() + b.keys.len();
     let lone = all - 2 * pairs.len();
     if lone > 0 {
@@ -154,7 +154,7 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
             true => found.push(difference(file, column, other, &pairs, a)),
             // Walls and lists: number by number, or not at all.
             false if column.values.len() == other.values.len() => {
-                let rows: Vec<_> = (0..column.values.len() / per).map(|k| (k, k)).collect();
+                let rows: Vec<_> = (0..column.values.len() / per).map(|k| [k; 2]).collect();
                 found.push(difference(file, column, other, &rows, &Table::default()));
             }
             false => remarks.push(format!(
@@ -168,13 +168,7 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     (found, remarks)
 }
 
-fn difference(
-    file: &str,
-    a: &Column,
-    b: &Column,
-    pairs: &[(usize, usize)],
-    table: &Table,
-) -> Difference {
+fn difference(file: &str, a: &Column, b: &Column, pairs: &[[usize; 2]], of: &Table) -> Difference {
     let per = a.components.max(1);
     let mut found = Difference {
         file: file.to_string(),
@@ -185,7 +179,7 @@ fn difference(
         ..Difference::default()
     };
     let mut range: f64 = 0.0;
-    for &(row, twin) in pairs {
+    for &[row, twin] in pairs {
         for k in 0..per {
             let (x, y) = (a.values[per * row + k], b.values[per * twin + k]);
             if x.is_finite() {
@@ -201,16 +195,16 @@ fn difference(
             };
             if apart > found.largest {
                 (found.largest, found.first, found.second) = (apart, x, y);
-                let key = table.keys.get(row).copied();
-                let (time, particle) = match table.over_time {
+                let key = of.keys.get(row).copied();
+                let (time, particle) = match of.over_time {
                     true => (key.map(f64::from_bits), None),
-                    false => (table.time, Some(key.unwrap_or(row as u64))),
+                    false => (of.time, Some(key.unwrap_or(row as u64))),
                 };
                 found.place = DifferencePlace {
                     time,
                     particle,
                     component: (per > 1).then_some(k),
-                    position: table.places.get(row).cloned().unwrap_or_default(),
+                    position: of.places.get(row).cloned().unwrap_or_default(),
                 };
             }
         }

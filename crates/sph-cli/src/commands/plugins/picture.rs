@@ -31,19 +31,15 @@ struct Curve<'s> {
     pressure: f64,
 }
 
-pub fn draw_laws(
-    arguments: &PluginArguments,
-    plugins: &[PluginInfo],
-    file: &Path,
-) -> Result<(), Trouble> {
+pub fn draw_laws(asked: &PluginArguments, laws: &[PluginInfo], file: &Path) -> Result<(), Trouble> {
     picture("picture", file, &["svg", "png"])?;
-    let samples = law_sample::all(plugins, &arguments.set, arguments.vary.as_deref())?;
-    let curves = curves(&samples, &numbers("pressure", &arguments.pressure, "Pa")?)?;
+    let samples = law_sample::all(laws, &asked.set, asked.vary.as_deref())?;
+    let curves = curves(&samples, &numbers("pressure", &asked.pressure, "Pa")?)?;
     let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
-    let rates = rates(&arguments.strain_rates)?;
+    let rates = rates(&asked.strain_rates)?;
     let panels = match elastic {
         0 => flow(&curves, &rates)?,
-        all if all == curves.len() => from_rest(&curves, &rates, strain(arguments)?)?,
+        all if all == curves.len() => from_rest(&curves, &rates, strain(asked)?)?,
         _ => {
             return Err(Trouble::usage(
                 "laws with and without an elastic part have no common picture: draw them apart",
@@ -253,10 +249,8 @@ fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
     let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| {
         let curves = kernels.iter().map(|kernel| {
             let along = (0..=POINTS).map(|k| kernel.support() * k as f64 / POINTS as f64);
-            Series::line(
-                kernel.name(),
-                along.map(|q| [q, of(&**kernel, q)]).collect(),
-            )
+            let points = along.map(|q| [q, of(&**kernel, q)]);
+            Series::line(kernel.name(), points.collect())
         });
         plot("r/h [1]", label, curves.collect())
     };
