@@ -142,14 +142,8 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
         let known = |k: usize| self.units.get().and_then(|units| units.get(k)).copied();
         let columns = self.columns.iter().enumerate();
         let one = |(k, column): (usize, &PlannedColumn)| {
-            ProbeColumn::named(
-                &column.suffix,
-                column
-                    .units
-                    .map(|units| units[D - 2])
-                    .or(known(k))
-                    .unwrap_or("1"),
-            )
+            let unit = column.units.map(|units| units[D - 2]).or(known(k));
+            ProbeColumn::named(&column.suffix, unit.unwrap_or("1"))
         };
         let mut all: Vec<_> = columns.map(one).collect();
         if self.fitted.is_some() {
