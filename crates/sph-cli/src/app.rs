@@ -7,7 +7,7 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command};
 use crate::commands::{
-    check, compare, draw, explain, manual, measure, new, plugins, run, scenes, schema, study, view,
+    check, compare, draw, explain, manual, measure, new, plugins, run, scenes, study, view,
 };
 use crate::ranks;
 use crate::terminal::console;
@@ -40,7 +40,7 @@ pub fn command_line<A: Into<OsString> + Clone>(arguments: impl IntoIterator<Item
         Command::Check(a) => (a.json, check::command(&a)),
         Command::Explain(a) => (a.json, explain::command(&a)),
         Command::Plugins(a) => (a.json, plugins::command(&a)),
-        Command::Schema { grains } => (false, schema::command(grains)),
+        Command::Schema { grains } => (false, scenes::schema(grains)),
         Command::Scenes { markdown, json } => (json, scenes::command(markdown, json)),
         Command::New { name, from } => (false, new::command(&name, from.as_deref())),
         Command::Compare {

@@ -9,14 +9,12 @@
 //!
 //! [`library`] has the commands as functions, for programs without a terminal.
 //!
-//! Every subcommand is one file; none of them names a plugin. Exit codes: 0 done,
-//! 1 the run failed or was interrupted, 2 bad usage or a bad scene. With code 2 nothing has been
-//! written.
+//! Subcommands are the files of `commands`; none of them names a plugin. Exit codes: 0 done, 1 the run failed or was
+//! interrupted, 2 bad usage or a bad scene. With code 2 nothing has been written.
 
 mod app;
 mod arguments;
 mod commands;
-mod gallery;
 mod interrupt;
 pub mod library;
 mod ranks;

@@ -2,8 +2,6 @@
 
 #[cfg(feature = "mpi")]
 mod job;
-#[cfg(feature = "mpi")]
-mod rank;
 
 use std::sync::{Arc, OnceLock};
 

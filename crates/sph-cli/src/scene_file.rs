@@ -66,11 +66,9 @@ pub struct OpenScene {
     _unpacked: Option<Scratch>,
 }
 
-/// The values of `--set`.
 pub fn overrides(set: &[String]) -> Result<Vec<Override>, Trouble> {
     let parse = |text: &String| {
-        let parsed = Override::parse(text);
-        parsed.map_err(|p| format!("--set {text}: {}", p.message).into())
+        Override::parse(text).map_err(|p| format!("--set {text}: {}", p.message).into())
     };
     set.iter().map(parse).collect()
 }
@@ -108,22 +106,20 @@ pub fn open(arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
 /// Mistakes of the scene with their places.
 pub fn open_text(text: &str, file: &str, arguments: &SceneArguments) -> Result<OpenScene, Trouble> {
     let overrides = overrides(&arguments.set)?;
-    let allowed = allowed(&arguments.allow_path)?;
     Ok(OpenScene {
-        scene: read(Source::new(text, file, &overrides).allowing(allowed))?,
+        scene: read(Source::new(text, file, &overrides).allowing(allowed(&arguments.allow_path)?))?,
         stem: stem(Path::new(file)).to_string(),
         shown: file.to_string(),
         _unpacked: None,
     })
 }
 
+/// A scene, and the folder that its data were unpacked to.
+pub type FoundScene = (SceneText, Option<Scratch>);
+
 /// Finds the scene that a study in a folder names: by its path from there, within that folder or an
 /// allowed one, or by the name of a shipped one, beside which all shipped data lie as long as the folder is kept.
-pub fn find(
-    folder: &Path,
-    scene: &str,
-    allowed: &[PathBuf],
-) -> Result<(SceneText, Option<Scratch>), String> {
+pub fn find(folder: &Path, scene: &str, allowed: &[PathBuf]) -> Result<FoundScene, String> {
     let path = within(folder, scene, allowed).map_err(|e| e.to_string())?;
     let found = located(&path, scene, None)?;
     let scene = SceneText {
@@ -202,7 +198,9 @@ fn unpacked(name: &str, data: &[Data]) -> Result<(String, Option<Scratch>), Stri
     let folder = Scratch::new(".sph-data-");
     let folder = folder.map_err(|e| format!("cannot put the data of `{name}` anywhere: {e}"))?;
     let file = folder.path().join(format!("{name}.toml"));
-    shipped::unpack(data, folder.path())?;
+    shipped::unpack(data.iter().copied(), folder.path(), |f, data| {
+        std::fs::write(f, data)
+    })?;
     Ok((file.display().to_string(), Some(folder)))
 }
 

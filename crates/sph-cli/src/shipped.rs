@@ -7,19 +7,16 @@ include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 /// Folder in which scenes are looked for before the compiled-in ones.
 const FOLDER: &str = "scenes";
 
-/// A shipped scene or study.
 #[derive(Clone, Debug)]
 pub struct Shipped {
     /// Name without extension.
     pub name: String,
-    /// Its text.
     pub content: Content,
 }
 
 /// A file in ./scenes or ./studies, or a text in the program.
 #[derive(Clone, Debug)]
 pub enum Content {
-    /// The file.
     File(PathBuf),
     /// The text that is compiled in.
     CompiledIn(&'static str),
@@ -81,7 +78,6 @@ pub fn find_study(name: &str) -> Option<Shipped> {
     Some(Shipped { name, content })
 }
 
-/// Names of the compiled-in studies.
 pub fn studies() -> impl Iterator<Item = &'static str> {
     STUDIES.iter().map(|(name, _)| *name)
 }
@@ -96,22 +92,27 @@ pub fn data_of(texts: Option<&[&str]>) -> Vec<Data> {
     DATA.iter().filter(mentioned).copied().collect()
 }
 
-/// Writes compiled-in data below a folder; returns the written files.
+/// Writes files below a folder by their paths there, but for those that are there already; returns the new ones.
 ///
 /// # Errors
 /// The reason of the system, with the file.
-pub fn unpack(data: &[Data], folder: &Path) -> Result<Vec<PathBuf>, String> {
+pub fn unpack<P: AsRef<Path>, T>(
+    files: impl IntoIterator<Item = (P, T)>,
+    folder: &Path,
+    write: impl Fn(&Path, T) -> std::io::Result<()>,
+) -> Result<Vec<PathBuf>, String> {
     let mut written = Vec::new();
-    for (path, content) in data {
+    for (path, content) in files {
         let target = folder.join(path);
+        if target.exists() {
+            continue;
+        }
         let told = |e: std::io::Error| format!("cannot write {}: {e}", target.display());
         if let Some(parent) = target.parent() {
             std::fs::create_dir_all(parent).map_err(told)?;
         }
-        if !target.exists() {
-            std::fs::write(&target, content).map_err(told)?;
-            written.push(target);
-        }
+        write(&target, content).map_err(told)?;
+        written.push(target);
     }
     Ok(written)
 }

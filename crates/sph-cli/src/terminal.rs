@@ -2,14 +2,12 @@
 
 pub mod console;
 pub mod diagnostics;
-pub mod display;
 mod layout;
-mod output;
 pub mod progress;
 pub mod shell;
 pub mod study_progress;
 mod trouble;
 
+pub use console::{CommandOutput, Ended};
 pub use layout::*;
-pub use output::{CommandOutput, Ended};
 pub use trouble::{ModelError, Trouble};

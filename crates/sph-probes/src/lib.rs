@@ -17,17 +17,14 @@ pub mod norm;
 mod phases;
 mod sampling;
 mod solutions;
-mod surface;
 
-pub use contract::{
-    Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry,
+pub use contract::{Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry};
+pub use derived::{
+    SURFACE_DISTANCE, derived_fields, derived_stages, needs_gradient, surface_distance,
 };
-pub use derived::{derived_fields, derived_stages, needs_gradient};
 pub use flow::energy_budget::{
     BOOKED_COMPRESSION, ENERGY_AT_START, ENERGY_WORKS, EnergyWork, work_of_stranger,
 };
-pub use flow::level::Level;
 pub use flow::profile::Profile;
 pub use measure::{Reduce, Reduction, Weight, WeightedValues};
-pub use solutions::*;
-pub use surface::{SURFACE_DISTANCE, surface_distance};
+pub use phases::level::Level;

@@ -167,8 +167,7 @@ pub fn mean(times: &[f64], values: &[f64]) -> Option<f64> {
 /// Period of an oscillation, s: the mean time between crossings of the mean in the same direction,
 /// interpolated linearly. `None` if there are not two of either direction.
 ///
-/// Crossings upward and downward are counted by themselves, so that a mean that is a little off
-/// does no harm.
+/// Crossings upward and downward are counted by themselves, so that a mean that is a little off does no harm.
 pub fn period(times: &[f64], values: &[f64]) -> Option<f64> {
     let mean = mean(times, values)?;
     let finite = times.iter().zip(values).filter(|(_, v)| v.is_finite());
@@ -245,10 +244,8 @@ mod tests {
         let found = lag([&t, &values], rest, 0.5).expect("a lag");
         assert!((found - 0.123).abs() < 1e-4, "{found}");
         assert!((range_error(&values, &reference) - 0.1).abs() < 1e-3);
-        assert_eq!(
-            peak_time(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, -1.0]),
-            Some(0.0)
-        );
+        let peak = peak_time(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, -1.0]);
+        assert_eq!(peak, Some(0.0));
         assert_eq!(lag([&t, &values], [&[9.0], &[1.0]], 0.5), None);
     }
 

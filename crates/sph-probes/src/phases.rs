@@ -1,6 +1,4 @@
 //! Probes of one phase.
 
-pub(crate) mod interface;
-pub(crate) mod line;
+pub(crate) mod level;
 pub(crate) mod phase;
-pub(crate) mod slope;

@@ -5,14 +5,11 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 use sph_neighbours::World;
 
-use crate::surface::images_of;
+use crate::derived::images_of;
 
 /// The free particles within the support of a place, by number, with the way from them to it and V w.
 ///
 /// It walks over all particles: probes are few, and no list exists for them.
-///
-/// # Errors
-/// If a column is missing.
 fn around<const D: usize>(
     world: &World<D>,
     x: Vect<D>,
@@ -29,9 +26,6 @@ fn around<const D: usize>(
 
 /// Σ V q w / Σ V w at a place, of a quantity q by the number of a particle and the way from it; zero where there is no
 /// particle.
-///
-/// # Errors
-/// If a column is missing.
 pub(crate) fn mean_around<const D: usize, const N: usize>(
     world: &World<D>,
     x: Vect<D>,
@@ -62,17 +56,13 @@ pub(crate) struct NearbyParticles {
 
 impl NearbyParticles {
     /// Those within `supports` radii of the box between two corners.
-    ///
-    /// # Errors
-    /// If a column is missing.
     pub fn new(
         world: &World<2>,
         low: Vect<2>,
         high: Vect<2>,
         supports: usize,
     ) -> Result<Self, StepError> {
-        let positions = world.free.get(fields::POSITION)?;
-        let volumes = world.free.get(fields::VOLUME)?;
+        let (positions, volumes) = world.free.all((fields::POSITION, fields::VOLUME))?;
         let radius = world.kernel.support_radius();
         let margin = Vect::repeat(radius * supports as f64);
         let (corner, far) = (low - margin, high + margin);
@@ -116,7 +106,6 @@ impl NearbyParticles {
         (filling > 0.0).then(|| sum / filling)
     }
 
-    /// The means at all particles.
     pub fn means(&self, kernel: &dyn Sampler, q: &[f64]) -> Vec<f64> {
         let at_own = self.images.iter().zip(q);
         at_own

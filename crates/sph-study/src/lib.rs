@@ -8,8 +8,8 @@
 //!    it was.
 //! 3. [`Results`] has errors, times and orders of convergence; [`publish`] writes them as JSON,
 //!    CSV, plots and a page.
-//!    A study of axes that are gone along until they break has a [`Frontier`] for each, from the [`verdict()`]
-//!    on every run of its [`Ladder`].
+//!    A study of axes that are gone along until they break has a `Frontier` for each, from the [`verdict()`]
+//!    on every run of its `Ladder`.
 //!    Costs against the number of particles, and which choice is the fastest at which size, are a [`Scale`].
 //! 4. [`compare`] lists the changes between two [`Results`].
 
@@ -18,23 +18,26 @@ mod reading;
 mod results;
 mod running;
 
-pub use pages::publish::publish;
-pub use pages::table::{rows, write_csv};
-pub use reading::axis::{Choice, Set, StudyAxis};
-pub use reading::file::{Bounds, Combine, MeansPlot, StudyFile};
+pub use pages::report::publish;
+pub use pages::table::rows;
+pub use reading::file::StudyFile;
 pub use reading::mistake::{Mistake, Refused};
-pub use reading::options::Options;
 pub use reading::plan::{ReadError, Study};
-pub use reading::variant::{FindScene, Ladder, Rung, SceneText, Variant};
+pub use reading::variant::{FindScene, SceneText, Variant};
 pub use results::Results;
-pub use results::compare::{Change, Comparison, Pair, compare};
-pub use results::frontier::Frontier;
-pub use results::order::Orders;
-pub use results::scaling::{FastestRange, Scale, SeriesCost};
-pub use results::variant_result::{SeriesResult, VariantResult, WallSeconds};
-pub use running::cost::{Cost, Scaling, SolveCost};
-pub use running::execute::{Outcome, execute, to_run};
-pub use running::machine::{Machine, Origin};
-pub use running::record::{Error, Health, Record, RunSize, Status};
-pub use running::repeat::Watcher;
-pub use running::verdict::{Colour, QUANTITIES, Verdict, verdict};
+pub use results::compare::compare;
+pub use results::scaling::Scale;
+pub use results::variant_result::{Orders, VariantResult};
+pub use running::execute::{execute, to_run};
+pub use running::machine::Origin;
+pub use running::record::{Record, Status};
+pub use running::repeat::{Options, Watcher};
+pub use running::verdict::verdict;
+
+use reading::axis::{Choice, Set, StudyAxis};
+use reading::file::{Bounds, Combine, MeansPlot};
+use reading::variant::{Frontier, Ladder, Rung};
+use results::scaling::SeriesCost;
+use results::variant_result::SeriesResult;
+use running::record::{Cost, Error, Health, RunSize, Scaling, SolveCost};
+use running::verdict::{Colour, QUANTITIES, Verdict};

@@ -1,8 +1,6 @@
 //! Results as tables, plots and a page.
 
-mod grid;
 pub mod matrix;
 pub mod plots;
-pub mod publish;
 pub mod report;
 pub mod table;

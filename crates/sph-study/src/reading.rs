@@ -5,7 +5,6 @@ pub mod combine;
 pub mod file;
 pub mod ladder;
 pub mod mistake;
-pub mod options;
 pub mod plan;
 pub mod reader;
 pub mod variant;

@@ -1,9 +1,6 @@
 //! `study.json`: all that came out of a study.
 
 pub mod compare;
-pub mod frontier;
-pub mod order;
-pub mod pareto;
 pub mod scaling;
 pub mod variant_result;
 
@@ -12,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use sph_core::comma_list;
 
-use crate::results::pareto::pareto;
+use crate::results::variant_result::pareto;
 use crate::{
     Frontier, MeansPlot, Orders, Origin, Record, Scale, SeriesResult, Study, Variant, VariantResult,
 };
@@ -23,31 +20,25 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// All that came out of a study.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Results {
-    /// Layout of this file.
-    pub schema_version: u32,
-    /// Name of the study.
-    pub study: String,
+    pub(crate) schema_version: u32,
+    pub(crate) study: String,
     /// Title of the study.
     pub title: String,
-    /// Subject of the study.
-    pub description: Option<String>,
-    /// Name of the scene.
-    pub scene: String,
-    /// Text of the study file.
-    pub definition: String,
+    pub(crate) description: Option<String>,
+    pub(crate) scene: String,
+    pub(crate) definition: String,
     /// Settings put on top of every variant, as of `--set`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// Judged errors, the first one by plots.
-    pub errors: Vec<String>,
-    /// Names of the axes.
-    pub axes: Vec<String>,
+    pub(crate) errors: Vec<String>,
+    pub(crate) axes: Vec<String>,
     /// Key over which orders are computed.
-    pub refinement: Option<String>,
+    pub(crate) refinement: Option<String>,
     /// References whose means are plotted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub means: Option<MeansPlot>,
+    pub(crate) means: Option<MeansPlot>,
     /// True if variants ran one by one.
-    pub serial: bool,
+    pub(crate) serial: bool,
     /// Machine and program of the last run.
     #[serde(flatten)]
     pub origin: Origin,
@@ -59,7 +50,7 @@ pub struct Results {
     /// Variants that differ in their refinement only.
     pub series: Vec<SeriesResult>,
     /// Variants that no other one beats in both error and time, fastest first.
-    pub pareto: Vec<String>,
+    pub(crate) pareto: Vec<String>,
     /// Costs against the number of particles, of studies that have them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Scale>,
@@ -70,7 +61,7 @@ impl Results {
     pub fn new(study: &Study, records: &[Record], origin: Origin) -> Self {
         let axes: Vec<String> = study.axes.iter().map(|a| a.name.clone()).collect();
         let variants = study.variants.iter().zip(records);
-        let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].judge);
+        let judge = |v: &Variant| v.rung.map(|r| &study.ladders[r.ladder].frontier.judge);
         let variants = variants.map(|(v, record)| VariantResult::new(v, record, judge(v), &axes));
         let variants = variants.collect();
         let mut results = Results {
@@ -170,8 +161,7 @@ impl Results {
         }
         let mut found = BTreeMap::new();
         for series in &self.series {
-            let points = self.convergence(&series.variants, self.judged());
-            for pair in points.windows(2) {
+            for pair in self.convergence(&series.variants, self.judged()).windows(2) {
                 let orders = Orders::from_points(&[pair[0].1, pair[1].1]);
                 found.insert(pair[1].0.clone(), orders.main());
             }

@@ -1,6 +1,5 @@
 //! Variants run one after the other, and the records of each.
 
-pub mod cost;
 pub mod execute;
 pub mod machine;
 pub mod record;

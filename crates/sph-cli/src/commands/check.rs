@@ -13,14 +13,13 @@ use crate::arguments::CheckArguments;
 use crate::commands::draw::picture;
 use crate::commands::{grains, mesh};
 use crate::scene_file::{AnyScene, OpenScene, open};
-use crate::terminal::{CommandOutput, Trouble, memory, quantities, row, sections};
+use crate::terminal::{CommandOutput, Rows, Trouble, memory, quantities, row, sections};
 
 /// Above this Mach number the fluid is not nearly incompressible; the default is on it, but for rounding.
 const MACH: f64 = 0.1 * (1.0 + 1e-9);
 /// Time that the first steps of a scene may take, for an estimate of all of them.
 const TRIAL: Duration = Duration::from_secs(2);
 
-/// Lists sizes, costs and remarks of a scene, without running it.
 pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     let file = arguments.picture.as_deref();
     let picture = file.map(|out| picture("picture", out, &["png"]));
@@ -46,7 +45,6 @@ pub fn command(arguments: &CheckArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Draws the scene before any run.
 fn draw(opened: &OpenScene, path: &Path) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         let text = "--picture: grains have no place before they are prepared; `output.picture` of a run draws them";
@@ -181,7 +179,6 @@ fn text(e: &Examination, file: &str, time: &str, alternatives: Option<&Alternati
         + &sections(parts, &e.warnings)
 }
 
-/// Particles of a zone.
 fn zone_row(zone: &ZoneSize) -> Vec<String> {
     let particles = number::count(zone.particles as f64);
     let spacing = number::plain(zone.spacing);
@@ -193,12 +190,7 @@ fn zone_row(zone: &ZoneSize) -> Vec<String> {
     row(&zone.name, size)
 }
 
-/// Steps, times, memory and disk.
-fn estimate_rows(
-    e: &Examination,
-    time: &str,
-    alternatives: Option<&Alternatives>,
-) -> Vec<Vec<String>> {
+fn estimate_rows(e: &Examination, time: &str, alternatives: Option<&Alternatives>) -> Rows {
     let cost = &e.estimate;
     let mut rows = vec![
         row("steps", number::count(cost.steps)),

@@ -1,7 +1,6 @@
 //! `sph compare`: whether two runs have the same bits, or where they differ most.
 
 mod difference;
-mod tables;
 
 use std::path::Path;
 
@@ -11,10 +10,8 @@ use sph_io::{Checkpoint, IoError};
 use sph_run::CHECKPOINT;
 
 use crate::terminal::{CommandOutput, Trouble, table};
-use difference::{Difference, differences};
-use tables::Table;
+use difference::{Difference, Table, differences};
 
-/// Common results of two folders, and their differences.
 #[derive(Default)]
 struct Comparison {
     /// Of every column that both have, in the order of the files.
@@ -23,7 +20,6 @@ struct Comparison {
     remarks: Vec<String>,
 }
 
-/// Compares the results of two runs.
 pub fn command(first: &Path, second: &Path, json: bool) -> Result<(), Trouble> {
     let (told, same) = output(first, second)?;
     told.print(json);

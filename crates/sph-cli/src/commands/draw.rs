@@ -8,7 +8,6 @@ use sph_io::curves::{Frames, Line};
 use crate::terminal::{Trouble, console};
 use crate::tool_arguments::{DrawCommand, ProfileArguments, StreamlineArguments, TrackArguments};
 
-/// Draws the requested curves.
 pub fn command(asked: &DrawCommand) -> Result<(), Trouble> {
     match asked {
         DrawCommand::Streamlines(a) => streamlines(a),
@@ -29,8 +28,7 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
     if let Some(wrong) = apart.filter(|a| *a <= 0.0) {
         return Err(format!("--apart {wrong}: expected a distance above zero").into());
     }
-    let slice = optional("slice", &arguments.slice, "m")?;
-    let how = (apart, slice);
+    let how = (apart, optional("slice", &arguments.slice, "m")?);
     let lines = sph_io::curves::draw_streamlines(&frames, time, &arguments.field, how, path)?;
     report(&format!("{lines} lines"), path);
     Ok(())
@@ -84,7 +82,6 @@ fn report(what: &str, path: &Path) {
     console::out(&format!("{what} in {path} and {table}\n"));
 }
 
-/// The frames of a run.
 pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     if !folder.join("fields.pvd").is_file() {
         let folder = folder.display();
@@ -94,16 +91,13 @@ pub fn frames(folder: &Path) -> Result<Frames, Trouble> {
     Ok(Frames::from_folder(folder)?)
 }
 
-/// The file of the picture, if it can be one.
 pub fn picture<'a>(option: &str, out: &'a Path, kinds: &[&str]) -> Result<&'a Path, Trouble> {
-    let kind = out.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    match kinds.contains(&kind) {
+    match kinds.contains(&out.extension().and_then(|e| e.to_str()).unwrap_or_default()) {
         true => Ok(out),
-        false => Err(Trouble::usage(format!(
-            "--{option} {}: it must end in .{}",
-            out.display(),
-            kinds.join(" or .")
-        ))),
+        false => {
+            let (out, kinds) = (out.display(), kinds.join(" or ."));
+            Err(format!("--{option} {out}: it must end in .{kinds}").into())
+        }
     }
 }
 

@@ -10,14 +10,13 @@ use crate::arguments::ExplainArguments;
 use crate::commands::grains;
 use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::{
-    CommandOutput, Trouble, columns, listed, memory, paragraphs, parameters, row, table,
+    CommandOutput, Trouble, columns, headed, listed, memory, paragraphs, parameters, row, table,
     table_and_below,
 };
 
 /// Machines that are listed.
 const SHOWN: usize = 16;
 
-/// Shows the parts of a scene.
 pub fn command(arguments: &ExplainArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let mut told = output(&opened)?;
@@ -42,7 +41,6 @@ pub fn output(opened: &OpenScene) -> Result<CommandOutput, Trouble> {
     Ok(told)
 }
 
-/// Adds the shares and messages of several machines.
 fn split(opened: &OpenScene, count: usize, told: &mut CommandOutput) -> Result<(), Trouble> {
     let AnyScene::Particles(loaded) = &opened.scene else {
         let why = "--ranks splits scenes of particles, and this is one of grains";
@@ -107,14 +105,10 @@ fn text(e: &Examination) -> String {
 
 /// Choices that the scene leaves to its flow, with the reasons.
 fn suited(choices: &[(&'static str, &'static str)]) -> String {
-    if choices.is_empty() {
-        return String::new();
-    }
     let rows = choices.iter().map(|(key, reason)| row(key, *reason));
-    "\nleft to the flow, with the reason\n".to_string() + &columns(2, rows)
+    headed("\nleft to the flow, with the reason", columns(2, rows))
 }
 
-/// Every plugin in a line, and its parameters below it.
 fn plugins(plugins: &[PluginInForce]) -> String {
     let rows = plugins.iter().map(|p| {
         let names = [&p.kind, &p.name, &p.provider].map(String::clone);
@@ -161,6 +155,5 @@ fn stage_text(k: usize, stage: &StageUse) -> String {
         ("writes", &stage.writes),
     ];
     let some = all.into_iter().filter(|(_, fields)| !fields.is_empty());
-    let rows = some.map(|(name, fields)| row(name, fields.join(", ")));
-    text + &columns(5, rows)
+    text + &columns(5, some.map(|(name, fields)| row(name, fields.join(", "))))
 }

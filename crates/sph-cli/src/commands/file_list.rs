@@ -23,7 +23,6 @@ pub fn ending(folder: &Path) -> String {
     format!("written to {shown}\n{files}look at it: sph view {word}\n")
 }
 
-/// Rows of name and meaning: pictures first.
 fn listing(folder: &Path) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for (sub, extension, one, many) in [
@@ -57,10 +56,8 @@ fn listing(folder: &Path) -> Vec<Vec<String>> {
     rows
 }
 
-/// The summary that a run left in its folder.
 pub fn read_summary(folder: &Path) -> Option<Json> {
-    let text = std::fs::read_to_string(folder.join(SUMMARY)).ok()?;
-    serde_json::from_str(&text).ok()
+    serde_json::from_str(&std::fs::read_to_string(folder.join(SUMMARY)).ok()?).ok()
 }
 
 /// Names of the files of a kind in a folder, in the order of their numbers.

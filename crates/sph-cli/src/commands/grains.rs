@@ -8,17 +8,15 @@ use sph_core::{comma_list, number};
 use crate::commands::file_list;
 use crate::commands::outcome::{errors, headline, limited_by, wall_time};
 use crate::terminal::{
-    CommandOutput, Trouble, WIDTH, columns, headed, listed, paragraph, paragraphs, parameters,
-    quantities, remarks, row, sections, table_and_below,
+    CommandOutput, Rows, Trouble, WIDTH, columns, headed, listed, paragraph, paragraphs,
+    parameters, quantities, remarks, row, sections, table_and_below,
 };
 
-/// Lists sizes, costs and remarks of a scene, without preparing its grains.
 pub fn check(loaded: &Loaded, shown: &str) -> Result<CommandOutput, Trouble> {
     let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput::new(&found, check_text(&found, shown)))
 }
 
-/// Shows the parts of a scene.
 pub fn explain(loaded: &Loaded) -> Result<CommandOutput, Trouble> {
     let found = examine(loaded).map_err(|e| Trouble::in_scene(e, &loaded.source))?;
     Ok(CommandOutput::new(&found, explain_text(&found)))
@@ -64,10 +62,8 @@ fn check_text(e: &Examination, file: &str) -> String {
 }
 
 fn explain_text(e: &Examination) -> String {
-    let mut text = format!(
-        "{}\n\nplugins, with the parameters that the scene gives\n",
-        e.scene
-    );
+    let scene = &e.scene;
+    let mut text = format!("{scene}\n\nplugins, with the parameters that the scene gives\n");
     let rows = e.plugins.iter().map(|p| {
         let names = [&p.kind, &p.of, &p.name].map(String::clone);
         (names.to_vec(), parameters(&p.parameters))
@@ -75,10 +71,8 @@ fn explain_text(e: &Examination) -> String {
     text.push_str(&table_and_below("kind, of, name", rows));
     text.push_str("\nkept per grain; no column of particles is among it\n");
     let rows = e.memory.iter();
-    text.push_str(&columns(
-        2,
-        rows.map(|(name, bytes)| row(name, rough_size(*bytes))),
-    ));
+    let rows = rows.map(|(name, bytes)| row(name, rough_size(*bytes)));
+    text.push_str(&columns(2, rows));
     text.push_str("\nstages of a step, in order\n");
     for (k, stage) in e.stages.iter().enumerate() {
         let item = paragraph(5, WIDTH, stage);
@@ -94,7 +88,6 @@ fn explain_text(e: &Examination) -> String {
     text + &paragraph(2, WIDTH, &comma_list(e.columns.iter().map(name)))
 }
 
-/// The run, its cost, its quality, and the places of its files.
 pub fn outcome(summary: &Summary, out: &Path) -> String {
     let derived = summary.derived.iter();
     let derived = derived.map(|(name, value)| row(name, number::plain(*value)));
@@ -107,7 +100,7 @@ pub fn outcome(summary: &Summary, out: &Path) -> String {
         + &file_list::ending(out)
 }
 
-fn cost(s: &Summary) -> Vec<Vec<String>> {
+fn cost(s: &Summary) -> Rows {
     let counted = |n: Option<f64>, noun: &str| {
         n.map_or(String::new(), |n| format!(", {} {noun}", number::count(n)))
     };

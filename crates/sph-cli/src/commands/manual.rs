@@ -11,7 +11,6 @@ use sph_io::write_whole;
 use crate::arguments::Arguments;
 use crate::terminal::{Trouble, console};
 
-/// Prints the completions of a shell.
 pub fn completions(shell: Shell) -> Result<(), Trouble> {
     let mut script = Vec::new();
     let mut command = Arguments::command();
@@ -20,7 +19,6 @@ pub fn completions(shell: Shell) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Prints a manual page, or writes all of them.
 pub fn man(of: Option<&str>, out: Option<&Path>) -> Result<(), Trouble> {
     let pages = pages();
     let Some(folder) = out else {
@@ -52,8 +50,7 @@ fn pages() -> Vec<(String, Vec<u8>)> {
     whole.build();
     let mut pages = vec![("sph".to_string(), page(whole.clone()))];
     for command in whole.get_subcommands() {
-        let name = format!("sph-{}", command.get_name());
-        pages.push((name, page(command.clone())));
+        pages.push((format!("sph-{}", command.get_name()), page(command.clone())));
     }
     pages
 }

@@ -14,15 +14,9 @@ use crate::commands::file_list::read_summary;
 use crate::terminal::{CommandOutput, Trouble};
 use crate::tool_arguments::MeasureArguments;
 
-/// A bound on a quantity, as it was given: the option, the quantity, the value, whether it is a lower one.
-struct QuantityBound<'a> {
-    option: &'static str,
-    of: &'a str,
-    value: &'a str,
-    least: bool,
-}
+/// A bound on a quantity, as it was given: the option, the quantity, the value.
+type QuantityBound<'a> = (&'static str, &'a str, &'a str);
 
-/// Prints a table of all frames, or writes it to a file.
 pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     let bounds = bounds(arguments)?;
     let phase = arguments.phase.as_deref();
@@ -50,7 +44,6 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The names of the columns, with their units.
 fn names(arguments: &MeasureArguments, unit: &str) -> Vec<String> {
     let named = |how: String| match some_unit(unit) {
         None => how,
@@ -81,13 +74,7 @@ fn bounds(arguments: &MeasureArguments) -> Result<Vec<QuantityBound<'_>>, Troubl
         let found = text.split_once('=').filter(|(of, _)| !of.is_empty());
         let expected = || format!("--{option} {text}: expected FIELD=VALUE, as x=0.2");
         let (of, value) = found.ok_or_else(expected)?;
-        let least = option == "above";
-        Ok(QuantityBound {
-            option,
-            of,
-            value,
-            least,
-        })
+        Ok((option, of, value))
     });
     each.collect()
 }
@@ -105,7 +92,6 @@ fn quantity(frame: &Snapshot, name: &str) -> Result<Column, Trouble> {
     }
 }
 
-/// The reductions and quantiles of a column over the particles of a phase within bounds.
 fn reduced(
     frame: &Snapshot,
     column: &Column,
@@ -124,19 +110,18 @@ fn reduced(
         },
     };
     let mut own = of_phase.clone();
-    for bound in bounds {
-        let of = quantity(frame, bound.of)?;
-        let value = parse_quantity(bound.value, &of.unit);
-        let value = value.map_err(|why| format!("--{} {}: {why}", bound.option, bound.of))?;
-        own.retain(|k| match bound.least {
-            true => of.values[*k] > value,
-            false => of.values[*k] < value,
+    for (option, name, value) in bounds {
+        let of = quantity(frame, name)?;
+        let value = parse_quantity(value, &of.unit);
+        let value = value.map_err(|why| format!("--{option} {name}: {why}"))?;
+        own.retain(|k| match *option {
+            "above" => of.values[*k] > value,
+            _ => of.values[*k] < value,
         });
     }
     let weights = match arguments.weight {
         Weight::One => None,
-        Weight::Mass => Some(quantity(frame, "mass")?.values),
-        Weight::Volume => Some(quantity(frame, "volume")?.values),
+        weight => Some(quantity(frame, weight.name())?.values),
     };
     let of = |numbers: &[usize]| -> Option<Vec<f64>> {
         let weights = weights.as_ref()?;

@@ -8,7 +8,6 @@ use sph_scene::{Facets, Topology, sense};
 
 use crate::terminal::{CommandOutput, Trouble, columns, headed, remarks, row};
 
-/// Openings that are shown.
 const SHOWN: usize = 10;
 /// A surface whose [`sense`] is smaller has no inside.
 const NO_INSIDE: f64 = 0.02;
@@ -17,13 +16,11 @@ const UNITS: [f64; 2] = [20.0, 2.0];
 /// Shares of its own size by which a coordinate in single precision is rounded.
 const SINGLE: f64 = 6e-8;
 
-/// True if the argument names a file of facets and no scene.
 pub fn is_mesh(argument: &str) -> bool {
     let ending = Path::new(argument).extension();
     ending.is_some_and(|e| e.eq_ignore_ascii_case("stl"))
 }
 
-/// Contents of a file of facets.
 pub fn output(file: &str) -> Result<CommandOutput, Trouble> {
     let (facets, odd) = Facets::read(Path::new(file))?;
     let topology = facets.topology();
@@ -65,7 +62,6 @@ fn place(x: &[f64; 3]) -> String {
     format!("({})", x.map(number::plain).join(", "))
 }
 
-/// A surface and its properties.
 struct Mesh {
     facets: Facets,
     topology: Topology,
@@ -117,7 +113,6 @@ impl Mesh {
         rows
     }
 
-    /// The remedy.
     fn said(&self) -> Vec<String> {
         let mut said = Vec::new();
         if !self.topology.flipped.is_empty() {

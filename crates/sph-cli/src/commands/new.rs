@@ -14,7 +14,6 @@ use crate::{scene_file, shipped};
 /// A dam break in a box, every line explained.
 const TEMPLATE: &str = include_str!("../../templates/dam-break.toml");
 
-/// Writes a scene to start from.
 pub fn command(name: &Path, from: Option<&str>) -> Result<(), Trouble> {
     let path = target(name)?;
     let (text, origin) = match from {
@@ -27,10 +26,8 @@ pub fn command(name: &Path, from: Option<&str>) -> Result<(), Trouble> {
     for file in data(&text, origin.as_deref(), folder)? {
         console::out(&format!("wrote {}", file.display()));
     }
-    console::out(&format!(
-        "next: sph check {0}, then sph run {0}",
-        path.display()
-    ));
+    let path = path.display();
+    console::out(&format!("next: sph check {path}, then sph run {path}"));
     Ok(())
 }
 
@@ -77,7 +74,10 @@ fn write(path: &Path, text: &str) -> Result<(), Trouble> {
 /// Brings the data files along that the new scene is compared with.
 fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
     let Some(origin) = origin else {
-        return Ok(shipped::unpack(&shipped::data_of(Some(&[text])), folder)?);
+        let data = shipped::data_of(Some(&[text]));
+        return Ok(shipped::unpack(data, folder, |f, data| {
+            std::fs::write(f, data)
+        })?);
     };
     let name = origin.join("scene.toml").display().to_string();
     let loaded = match scene_file::read(Source::new(text, &name, &[])) {
@@ -85,8 +85,7 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         Ok(AnyScene::Grains(loaded)) => {
             let files = loaded.files();
             let placed = files.iter().filter_map(|(key, file)| {
-                let path = loaded.source.resolve(key, file).ok()?;
-                Some((file.as_str(), path))
+                Some((file.as_str(), loaded.source.resolve(key, file).ok()?))
             });
             return copied(placed, folder);
         }
@@ -107,18 +106,7 @@ fn copied<'f>(
     files: impl Iterator<Item = (&'f str, PathBuf)>,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Trouble> {
-    let mut copied = Vec::new();
-    for (file, path) in files {
-        let target = folder.join(file);
-        if target.exists() || !path.is_file() {
-            continue;
-        }
-        let told = |e| format!("cannot write {}: {e}", target.display());
-        if let Some(parent) = target.parent() {
-            std::fs::create_dir_all(parent).map_err(told)?;
-        }
-        std::fs::copy(&path, &target).map_err(told)?;
-        copied.push(target);
-    }
-    Ok(copied)
+    let files = files.filter(|(_, path)| path.is_file());
+    let copy = |target: &Path, path: PathBuf| std::fs::copy(path, target).map(drop);
+    Ok(shipped::unpack(files, folder, copy)?)
 }

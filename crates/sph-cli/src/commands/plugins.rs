@@ -1,7 +1,5 @@
 //! `sph plugins`.
 
-mod choices;
-mod kernel_picture;
 mod law_sample;
 mod page;
 mod picture;
@@ -19,26 +17,28 @@ use crate::tool_arguments::PluginArguments;
 const LAWS: &str = "rheology";
 const KERNELS: &str = "kernel";
 
-/// Lists kinds, the plugins of a kind, or some plugins; or draws laws.
 pub fn command(arguments: &PluginArguments) -> Result<(), Trouble> {
     let kinds = kinds();
     let Some(kind) = &arguments.kind else {
         let all: Vec<Json> = kinds.iter().map(|k| kind_json(k)).collect();
         let text = match arguments.markdown {
             true => page::markdown(&kinds),
-            false => overview(&kinds),
+            false => {
+                let kinds = kinds.iter().map(|kind| kind_text(kind) + "\n");
+                kinds.collect::<String>()
+                    + "sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n"
+            }
         };
         CommandOutput::new(&all, text).print(arguments.json);
         return Ok(());
     };
     let kind = find_kind(&kinds, kind)?;
-    let names = arguments.names.iter();
-    let plugins = names.map(|name| find_plugin(kind, name));
+    let plugins = arguments.names.iter().map(|name| find_plugin(kind, name));
     let plugins = plugins.collect::<Result<Vec<_>, _>>()?;
     if let Some(file) = &arguments.picture {
         return match kind.name {
-            LAWS => picture::draw(arguments, &plugins, file),
-            KERNELS => kernel_picture::draw(arguments, &plugins, file),
+            LAWS => picture::draw_laws(arguments, &plugins, file),
+            KERNELS => picture::draw_kernels(arguments, &plugins, file),
             _ => Err(Trouble::usage(format!(
                 "only laws and kernels can be drawn: sph plugins {LAWS} NAME --picture FILE"
             ))),
@@ -80,12 +80,6 @@ fn find_plugin(kind: &PluginKind, name: &str) -> Result<PluginInfo, Trouble> {
         )
     };
     Ok(*found.ok_or_else(unknown)?)
-}
-
-fn overview(kinds: &[&PluginKind]) -> String {
-    let kinds = kinds.iter().map(|kind| kind_text(kind) + "\n");
-    kinds.collect::<String>()
-        + "sph plugins KIND NAME shows a plugin's parameters and a snippet for a scene\n"
 }
 
 fn kind_text(kind: &PluginKind) -> String {
@@ -153,24 +147,19 @@ fn parameter_text(parameter: &Parameter, schema: &Json) -> String {
     let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!(", {unit}"));
     let mut text = format!("  {name} ({kind}{unit}; {default})\n");
     text.push_str(&paragraph(6, WIDTH, &parameter.meaning));
-    let choices = choices::choices_of(schema, name);
-    for (k, choice) in choices.iter().enumerate() {
+    for (k, choice) in snippet::choices_of(schema, name).iter().enumerate() {
         let lead = if k == 0 { "one of " } else { "or " };
         let colon = if choice.meaning.is_empty() { "" } else { ": " };
         let line = format!("{lead}{}{colon}{}", choice.value, choice.meaning);
         text.push_str(&paragraph(8, WIDTH, &line));
     }
     if !parameter.source.is_empty() {
-        text.push_str(&paragraph(
-            6,
-            WIDTH,
-            &format!("source: {}", parameter.source),
-        ));
+        let source = format!("source: {}", parameter.source);
+        text.push_str(&paragraph(6, WIDTH, &source));
     }
     text
 }
 
-/// True if a plugin cannot be built without the parameter.
 fn required(schema: &Json, name: &str) -> bool {
     let listed = schema.get("required").and_then(Json::as_array);
     listed.into_iter().flatten().any(|r| r == name)
@@ -186,7 +175,7 @@ fn plugin_json(kind: &str, plugin: &PluginInfo) -> Json {
     let schema = (plugin.schema)();
     let all = parameters(&schema).into_iter().map(|p| {
         let required = required(&schema, &p.name);
-        let choices = choices::choices_of(&schema, &p.name).into_iter();
+        let choices = snippet::choices_of(&schema, &p.name).into_iter();
         let choices: Vec<String> = choices.map(|c| c.value).collect();
         json!({
             "name": p.name, "type": p.kind, "unit": p.unit, "default": p.default,

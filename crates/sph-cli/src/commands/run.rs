@@ -15,11 +15,9 @@ use crate::terminal::progress::Watcher;
 use crate::terminal::{CommandOutput, Ended, ModelError, Trouble, console, shell};
 use crate::{interrupt, ranks};
 
-/// Runs a scene.
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     let opened = open(&arguments.scene)?;
     let out = folder(arguments, &opened);
-    look_before_writing(arguments, &out)?;
     let start = format!("{}: running into {}", opened.scene.card().0, out.display());
     let noun = match opened.scene {
         AnyScene::Particles(_) => "particle",
@@ -52,7 +50,11 @@ pub fn execute(
     observer: &mut Watch<'_>,
 ) -> Result<Ended, Trouble> {
     let out = folder(arguments, opened);
-    look_before_writing(arguments, &out)?;
+    // Before the folder is touched.
+    if arguments.resume && !out.join(CHECKPOINT).is_file() {
+        let why = "to resume from: start without --resume";
+        return Err(format!("there is no checkpoint in {} {why}", out.display()).into());
+    }
     match &opened.scene {
         AnyScene::Particles(loaded) => particles(arguments, loaded, &out, observer),
         AnyScene::Grains(loaded) => grains(arguments, loaded, &out, observer),
@@ -116,19 +118,14 @@ fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> 
 }
 
 /// The end of a run whose summary is a text, with the time (s) and the step that it reached.
-fn ended(
-    summary: &impl Serialize,
-    text: String,
-    (status, time, steps): (Status, f64, u64),
-) -> Ended {
+fn ended(found: &impl Serialize, text: String, (status, time, step): (Status, f64, u64)) -> Ended {
     let stopped = status != Status::Done;
     Ended {
-        interrupted: stopped.then_some((time, steps)),
-        told: CommandOutput::new(summary, text),
+        interrupted: stopped.then_some((time, step)),
+        told: CommandOutput::new(found, text),
     }
 }
 
-/// Begin of the run.
 fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let Some(other) = &arguments.from else {
         return Ok(match (arguments.resume, arguments.changed) {
@@ -146,23 +143,11 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
     let real = file.canonicalize().map_err(missing)?;
     let own = out.join(CHECKPOINT).canonicalize();
     if own.is_ok_and(|own| own == real) {
-        let out = out.display();
-        return Err(Trouble::usage(format!(
-            "{out} would be overwritten, and the run starts from it: name another folder with --out"
-        )));
+        let why =
+            "would be overwritten, and the run starts from it: name another folder with --out";
+        return Err(format!("{} {why}", out.display()).into());
     }
     Ok(Start::From(file))
-}
-
-/// Refusals before the folder is touched.
-fn look_before_writing(arguments: &RunArguments, out: &Path) -> Result<(), Trouble> {
-    if arguments.resume && !out.join(CHECKPOINT).is_file() {
-        let out = out.display();
-        return Err(Trouble::usage(format!(
-            "there is no checkpoint in {out} to resume from: start without --resume"
-        )));
-    }
-    Ok(())
 }
 
 fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), Trouble> {
@@ -204,7 +189,6 @@ fn trouble(
     trouble
 }
 
-/// The command that resumes the run.
 fn going_on(arguments: &RunArguments, out: &Path) -> String {
     let scene = &arguments.scene;
     let out = [("--out", out.display().to_string())].into_iter();

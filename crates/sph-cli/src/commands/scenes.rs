@@ -1,21 +1,20 @@
-//! `sph scenes`.
+//! `sph scenes` and `sph schema`.
 
-mod page;
+mod gallery;
 
 use serde_json::{Value as Json, json};
 use sph_scene::{Source, read_text};
 
-use crate::gallery::{GALLERY, Gallery};
 use crate::scene_file::AnyScene;
 use crate::shipped::{Content, Shipped};
 use crate::terminal::{Trouble, columns, console, diagnostics};
 use crate::{scene_file, shipped};
+use gallery::{GALLERY, Gallery};
 
-/// Lists the shipped scenes.
 pub fn command(markdown: bool, json: bool) -> Result<(), Trouble> {
     let gallery = &*GALLERY;
     if markdown {
-        console::out(&page::markdown(gallery));
+        console::out(&gallery::markdown(gallery));
         return Ok(());
     }
     let all = shipped::all();
@@ -26,13 +25,21 @@ pub fn command(markdown: bool, json: bool) -> Result<(), Trouble> {
     Ok(())
 }
 
+/// Prints the JSON schema of scenes with all plugins of this binary.
+pub fn schema(grains: bool) -> Result<(), Trouble> {
+    console::json(&match grains {
+        true => dem_pfv::scene::editor_schema(),
+        false => sph_scene::schema(),
+    });
+    Ok(())
+}
+
 fn read(shipped: &Shipped) -> Result<AnyScene, String> {
     let (text, file) = match &shipped.content {
         Content::File(file) => (read_text(file)?, file.display().to_string()),
         Content::CompiledIn(text) => ((*text).to_string(), format!("{}.toml", shipped.name)),
     };
-    let scene = scene_file::read(Source::new(&text, &file, &[]));
-    scene.map_err(|trouble| match trouble {
+    scene_file::read(Source::new(&text, &file, &[])).map_err(|trouble| match trouble {
         Trouble::Scene(all) => diagnostics::render(&all, false),
         _ => "cannot be read".into(),
     })

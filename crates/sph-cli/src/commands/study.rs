@@ -7,22 +7,20 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use sph_core::{comma_list, suggestion};
-use sph_study::{Options, Origin, Results, SceneText, Status, Study, compare, execute, rows};
+use sph_study::{
+    Options, Origin, ReadError, Results, SceneText, Status, Study, compare, execute, rows,
+};
 
 use crate::arguments::StudyArguments;
-use crate::scene_file::{allowed, find, overrides};
+use crate::scene_file::{FoundScene, allowed, find, overrides};
 use crate::shipped::Content;
 use crate::terminal::study_progress::Watcher;
 use crate::terminal::{CommandOutput, Trouble, columns, console, shell};
 use crate::{interrupt, shipped};
 
-/// A scene, and the folder that its data were unpacked to.
-type FoundScene = (SceneText, Option<sph_io::Scratch>);
-
 /// Most series whose orders are printed; the report has all.
 const MOST: usize = 12;
 
-/// Runs a study, or compares two.
 pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if let [first, second] = arguments.compare.as_slice() {
         return compared(arguments, first, second);
@@ -103,7 +101,6 @@ fn compared(arguments: &StudyArguments, first: &Path, second: &Path) -> Result<(
     Ok(())
 }
 
-/// The study by its path, or by the name of a shipped one.
 fn read(
     arguments: &StudyArguments,
     name: &str,
@@ -141,10 +138,10 @@ fn read(
 
 /// Collects the variants to run, so that every mistake is known before the first run.
 fn assemble(study: &Study, watcher: &Watcher) -> Result<(), Trouble> {
-    for (k, variant) in study.variants.iter().enumerate() {
-        if watcher.has_to_run(k) {
-            watcher.assembled(variant, study.assemble(variant)?);
-        }
+    let all = study.variants.iter().zip(&watcher.open);
+    for (variant, _) in all.filter(|(_, open)| **open) {
+        let work = study.assemble(variant).map_err(ReadError::from)?;
+        watcher.assembled(variant, work);
     }
     Ok(())
 }
@@ -178,7 +175,6 @@ fn text(results: &Results, out: &Path) -> String {
     text + &format!("on {machine}\nwritten to {out}: report.html shows all of it\n")
 }
 
-/// The finished part, and the way to go on.
 fn kept(arguments: &StudyArguments, name: &str, records: &[sph_study::Record]) -> String {
     let over = |r: &&sph_study::Record| !matches!(r.status, Status::Pending | Status::Interrupted);
     let (finished, all) = (records.iter().filter(over).count(), records.len());

@@ -1,11 +1,12 @@
-//! Output that does not panic when its reader has gone.
+//! Output that does not panic when its reader has gone, and the result of a command, for programs and for people.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::Serialize;
+use serde_json::Value as Json;
 use sph_io::{clean, escaped};
 
-/// A line, or several, on stdout.
 pub fn out(text: &str) {
     raw(format!("{}\n", clean(text).trim_end_matches('\n')).as_bytes());
 }
@@ -23,15 +24,12 @@ pub fn raw(bytes: &[u8]) {
     }
 }
 
-/// True if output on stdout is incomplete.
 static UNWRITTEN: AtomicBool = AtomicBool::new(false);
 
-/// True if stdout took all output.
 pub fn complete() -> bool {
     !UNWRITTEN.load(Ordering::Relaxed)
 }
 
-/// A line, or several, on stderr.
 pub fn err(text: &str) {
     coloured(&clean(text));
 }
@@ -42,12 +40,42 @@ pub fn coloured(text: &str) {
     let _ = writeln!(stderr, "{}", text.trim_end_matches('\n'));
 }
 
-/// JSON on stdout, indented.
-pub fn json(value: &serde_json::Value) {
+pub fn json(value: &Json) {
     out(&escaped(&format!("{value:#}")));
 }
 
-/// True if stderr is read by a person.
 pub fn terminal() -> bool {
     std::io::stderr().is_terminal()
+}
+
+/// Findings of a command.
+#[derive(Clone, Debug, Default)]
+pub struct CommandOutput {
+    /// For programs.
+    pub json: Json,
+    /// For people: the printed text.
+    pub text: String,
+}
+
+impl CommandOutput {
+    pub(crate) fn new(findings: &impl Serialize, text: String) -> Self {
+        let json = serde_json::to_value(findings).unwrap_or(Json::Null);
+        CommandOutput { json, text }
+    }
+
+    pub(crate) fn print(&self, as_json: bool) {
+        match as_json {
+            true => json(&self.json),
+            false => out(&self.text),
+        }
+    }
+}
+
+/// The end of a run, which may be a stop by the user.
+#[derive(Default)]
+pub struct Ended {
+    /// Its summary.
+    pub told: CommandOutput,
+    /// Time, s, and step of a stop before the end; none if it ran to the end.
+    pub interrupted: Option<(f64, u64)>,
 }

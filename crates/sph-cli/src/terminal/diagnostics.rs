@@ -44,9 +44,8 @@ fn one(located: &Mistake, colour: bool) -> String {
     let span = |range: Range<usize>| (d.file.clone(), range);
     let config = Config::new().with_color(colour);
     let config = config.with_index_type(IndexType::Byte);
-    let told = if d.path.is_empty() { "here" } else { &d.path };
     let label = Label::new(span(place.clone()))
-        .with_message(told)
+        .with_message(if d.path.is_empty() { "here" } else { &d.path })
         .with_color(Color::Red);
     // A kind of one's own is coloured even where colours are off.
     let kind = match colour {
@@ -102,18 +101,12 @@ fn visible(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
     Some(last..before.len())
 }
 
-/// The diagnostics for a program.
 pub fn json(all: &[Mistake]) -> Json {
     let all = all.iter().map(|l| {
-        let Diagnostic {
-            file,
-            line,
-            column,
-            path,
-            message,
-            ..
-        } = &l.diagnostic;
-        json!({ "file": file, "line": line, "column": column, "path": path, "message": message })
+        let d = &l.diagnostic;
+        json!({
+            "file": d.file, "line": d.line, "column": d.column, "path": d.path, "message": d.message,
+        })
     });
     all.collect()
 }

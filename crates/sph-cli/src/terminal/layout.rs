@@ -7,6 +7,9 @@ use sph_particles::setup::Memory;
 /// Longest line of prose.
 pub const WIDTH: usize = 98;
 
+/// Rows of cells.
+pub type Rows = Vec<Vec<String>>;
+
 /// Rows as columns with two spaces between; the last column is not padded.
 pub fn columns(indent: usize, rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
@@ -27,13 +30,11 @@ pub fn columns(indent: usize, rows: impl IntoIterator<Item = Vec<String>>) -> St
     text
 }
 
-/// A name beside its value.
 pub fn row(name: &str, value: impl Into<String>) -> Vec<String> {
     vec![name.to_string(), value.into()]
 }
 
-/// Names beside their values with units.
-pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Vec<Vec<String>> {
+pub fn quantities<T: AsRef<str>>(all: &[(T, f64, T)]) -> Rows {
     let value = |x: f64, unit: &T| number::plain(x) + &unit_suffix(unit.as_ref());
     let row = |(name, x, unit): &(T, f64, T)| row(name.as_ref(), value(*x, unit));
     all.iter().map(row).collect()
@@ -56,10 +57,7 @@ pub fn table_and_below(heads: &str, rows: impl Iterator<Item = (Vec<String>, Str
 }
 
 /// Titles with their rows, but for those without rows, and warnings, if there are any.
-pub fn sections<const N: usize>(
-    parts: [(&str, Vec<Vec<String>>); N],
-    warnings: &[String],
-) -> String {
+pub fn sections<const N: usize>(parts: [(&str, Rows); N], warnings: &[String]) -> String {
     let block = |title: &str, lines| headed(&format!("\n{title}"), lines);
     let parts = parts.map(|(title, rows)| block(title, columns(2, rows)));
     parts.concat() + &block("warnings", remarks(warnings))
@@ -88,13 +86,11 @@ pub fn paragraph(indent: usize, width: usize, text: &str) -> String {
     lines.into_iter().map(|line| line + "\n").collect()
 }
 
-/// A list of remarks, each with a dash, broken between words.
 pub fn remarks(remarks: &[String]) -> String {
     let item = |r: &String| format!("  - {}", paragraph(4, WIDTH, r).trim_start());
     remarks.iter().map(item).collect()
 }
 
-/// Texts, each broken between words.
 pub fn paragraphs<T: AsRef<str>>(indent: usize, texts: &[T]) -> String {
     let broken = texts
         .iter()
@@ -102,7 +98,6 @@ pub fn paragraphs<T: AsRef<str>>(indent: usize, texts: &[T]) -> String {
     broken.collect()
 }
 
-/// Names with commas between, or what is said where there are none.
 pub fn listed(names: &[String], none: &str) -> String {
     match names {
         [] => none.to_string(),

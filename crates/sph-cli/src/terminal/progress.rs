@@ -1,13 +1,68 @@
-//! Progress of a run: a bar for a person, lines for a log.
+//! Progress of a run on stderr: a bar for a person, lines for a log.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sph_core::number;
+use sph_io::clean;
 use sph_run::{Command, Observer, Progress};
 
-use crate::terminal::display::Display;
+use crate::terminal::console;
+
+/// Wall-clock time between two updates of the bar.
+const BAR: Duration = Duration::from_millis(100);
+const DIVISIONS: u64 = 1000;
+
+pub enum Display {
+    Bar(ProgressBar),
+    Lines,
+    Silent,
+}
+
+impl Display {
+    /// The form for stderr, and the wall-clock time between two updates; `line` is that between two lines.
+    pub fn new(quiet: bool, line: Duration) -> (Self, Duration) {
+        match (quiet, console::terminal()) {
+            (true, _) => (Display::Silent, line),
+            (false, true) => (Display::Bar(bar()), BAR),
+            (false, false) => (Display::Lines, line),
+        }
+    }
+
+    pub fn say(&self, text: &str) {
+        match self {
+            Display::Bar(bar) => bar.println(clean(text)),
+            Display::Lines => console::err(text),
+            Display::Silent => {}
+        }
+    }
+
+    pub fn show(&self, share: f64, text: &str) {
+        match self {
+            Display::Bar(bar) => {
+                bar.set_position((share * DIVISIONS as f64) as u64);
+                bar.set_message(clean(text).into_owned());
+            }
+            Display::Lines => console::err(&format!("{:5.1} %  {text}", 100.0 * share)),
+            Display::Silent => {}
+        }
+    }
+
+    pub fn finish(&self) {
+        if let Display::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{bar:12} {percent:>3} %  {wide_msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
 
 /// Wall-clock time between two lines.
 const LINE: Duration = Duration::from_secs(5);
@@ -29,7 +84,6 @@ pub struct Watcher {
 }
 
 impl Watcher {
-    /// A watcher that stops the run once the flag is raised, and counts something.
     pub fn new(quiet: bool, start: String, noun: &'static str, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
         Watcher {
@@ -44,7 +98,6 @@ impl Watcher {
         }
     }
 
-    /// Removes the bar, or prints the end of the run.
     pub fn finish(&mut self) {
         self.display.finish();
         if let (Display::Lines, Some(last), Some(mut meter)) =
@@ -63,8 +116,7 @@ impl Watcher {
 
     fn print(&self, progress: &Progress, meter: &Meter) {
         let share = progress.time / progress.end;
-        let text = line(progress, meter, self.noun);
-        self.display.show(share, &text);
+        self.display.show(share, &line(progress, meter, self.noun));
     }
 }
 
@@ -105,17 +157,13 @@ fn line(progress: &Progress, meter: &Meter, noun: &str) -> String {
     };
     // The most frequent choice comes first: a narrow terminal cuts the end.
     let [time, end] = [progress.time, progress.end].map(number::plain);
-    let Progress {
-        dt, limiter, step, ..
-    } = progress;
+    let (dt, limiter, step) = (progress.dt, &progress.limiter, progress.step);
     format!("t = {time} of {end} s{left}  Δt {dt:.1e} s ({limiter})  {speed}  step {step}")
 }
 
-/// Rates, averaged over the last seconds.
 struct Meter {
     at: Instant,
-    time: f64,
-    step: u64,
+    last: Progress,
     /// Simulated seconds per second.
     time_rate: Option<f64>,
     /// Particle-steps per second.
@@ -126,8 +174,7 @@ impl Meter {
     fn new(progress: &Progress) -> Self {
         Meter {
             at: Instant::now(),
-            time: progress.time,
-            step: progress.step,
+            last: progress.clone(),
             time_rate: None,
             work_rate: None,
         }
@@ -135,19 +182,14 @@ impl Meter {
 
     fn update(&mut self, progress: &Progress) {
         let seconds = self.at.elapsed().as_secs_f64();
-        if progress.step == self.step || seconds <= 0.0 {
+        if progress.step == self.last.step || seconds <= 0.0 {
             return;
         }
         let weight = 1.0 - (-seconds / MEMORY).exp();
         let blend = |old: Option<f64>, new: f64| Some(old.map_or(new, |o| o + weight * (new - o)));
-        let steps = (progress.step - self.step) as f64;
-        self.time_rate = blend(self.time_rate, (progress.time - self.time) / seconds);
+        let steps = (progress.step - self.last.step) as f64;
+        self.time_rate = blend(self.time_rate, (progress.time - self.last.time) / seconds);
         self.work_rate = blend(self.work_rate, steps * progress.particles as f64 / seconds);
-        *self = Meter {
-            at: Instant::now(),
-            time: progress.time,
-            step: progress.step,
-            ..*self
-        };
+        (self.at, self.last) = (Instant::now(), progress.clone());
     }
 }

@@ -19,7 +19,6 @@ pub fn command<'o>(words: &[&str], options: impl IntoIterator<Item = (&'o str, S
     words.chain(options).collect::<Vec<_>>().join(" ")
 }
 
-/// The options `--set` and `--allow-path`, with their values.
 pub fn overrides<'o>(
     set: &'o [String],
     allowed: &'o [PathBuf],

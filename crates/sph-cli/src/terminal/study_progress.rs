@@ -9,7 +9,7 @@ use sph_core::number;
 use sph_run::Progress;
 use sph_study::{Options, Record, Status, Study, Variant, to_run, verdict};
 
-use crate::terminal::display::Display;
+use crate::terminal::progress::Display;
 
 /// Wall-clock time between two lines within a variant.
 const LINE: Duration = Duration::from_secs(30);
@@ -23,14 +23,14 @@ pub struct Watcher<'s> {
     /// Variants that are to be run or have been.
     total: usize,
     /// By variant: whether there is something to do.
-    open: Vec<bool>,
+    pub open: Vec<bool>,
     state: Mutex<State>,
 }
 
 /// The error of a finished variant that is reported, its cost, or its verdict.
 fn sentence(study: &Study, variant: &Variant, record: &Record) -> String {
     if let Some(rung) = variant.rung {
-        return match verdict(record, &study.ladders[rung.ladder].judge) {
+        return match verdict(record, &study.ladders[rung.ladder].frontier.judge) {
             Some(found) if found.why.is_empty() => found.colour.name().to_string(),
             Some(found) => format!("{}, {}", found.colour.name(), found.why),
             None => record.status.name().to_string(),
@@ -51,7 +51,6 @@ fn sentence(study: &Study, variant: &Variant, record: &Record) -> String {
 struct State {
     started: Instant,
     told: Instant,
-    /// Settled variants.
     settled: usize,
     /// Work of every variant that has to run, by name.
     cost: BTreeMap<String, f64>,
@@ -61,20 +60,15 @@ struct State {
 }
 
 impl<'s> Watcher<'s> {
-    /// A watcher that stops the study once the flag is raised.
     pub fn new(quiet: bool, study: &'s Study, options: &Options, stop: Arc<AtomicBool>) -> Self {
         let (display, every) = Display::new(quiet, LINE);
         let open = to_run(study, options);
         let total = study.variants.iter().filter(|v| v.wanted).count();
         let to_run = open.iter().filter(|o| **o).count();
-        let (title, all, out) = (
-            &study.file.title,
-            study.variants.len(),
-            options.out.display(),
-        );
-        display.say(&format!(
-            "{title}: {all} variants, {to_run} to run, into {out}"
-        ));
+        let (title, all) = (&study.file.title, study.variants.len());
+        let out = options.out.display();
+        let text = format!("{title}: {all} variants, {to_run} to run, into {out}");
+        display.say(&text);
         Watcher {
             study,
             display,
@@ -93,11 +87,6 @@ impl<'s> Watcher<'s> {
         }
     }
 
-    /// True if a variant has to run.
-    pub fn has_to_run(&self, k: usize) -> bool {
-        self.open.get(k).is_some_and(|open| *open)
-    }
-
     /// A variant is good and will take about so long.
     pub fn assembled(&self, variant: &Variant, work: f64) {
         let mut state = self.state();
@@ -109,7 +98,6 @@ impl<'s> Watcher<'s> {
         state.started = Instant::now();
     }
 
-    /// Removes the bar.
     pub fn finish(&self) {
         self.display.finish();
     }
@@ -135,7 +123,6 @@ impl<'s> Watcher<'s> {
 }
 
 impl State {
-    /// Share of the estimated work that is done.
     fn done_share(&self) -> f64 {
         let all: f64 = self.cost.values().sum();
         let shares = self.share.iter();

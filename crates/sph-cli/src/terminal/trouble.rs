@@ -8,7 +8,7 @@ use sph_io::curves::DrawError;
 use sph_particles::RunError;
 use sph_scene::Source;
 use sph_solver::SolverError;
-use sph_study::{Mistake, ReadError, Refused};
+use sph_study::{Mistake, ReadError};
 
 use crate::terminal::{console, diagnostics};
 
@@ -43,15 +43,9 @@ impl From<String> for Trouble {
 impl From<ReadError> for Trouble {
     fn from(error: ReadError) -> Self {
         match error {
-            ReadError::Refused(refused) => refused.into(),
+            ReadError::Refused(refused) => Trouble::Scene(refused.mistakes),
             other => Trouble::Usage(other.to_string()),
         }
-    }
-}
-
-impl From<Refused> for Trouble {
-    fn from(refused: Refused) -> Self {
-        Trouble::Scene(refused.mistakes)
     }
 }
 
@@ -79,11 +73,8 @@ pub struct ModelError {
     error: String,
     /// The particle, and possible remedies, in lines.
     more: String,
-    /// Exit code.
     code: u8,
-    /// True if a step failed.
     pub ran: bool,
-    /// First remedy where a file could not be written.
     pub remedy: Option<&'static str>,
 }
 
@@ -101,7 +92,7 @@ impl From<RunError> for ModelError {
             }
             RunError::Failed(failure) => {
                 told.ran = true;
-                told.more = crate::commands::failed::text(&failure);
+                told.more = crate::commands::outcome::failure(&failure);
             }
             RunError::Io(io) => {
                 told.remedy = remedy(&io);

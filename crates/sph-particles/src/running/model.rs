@@ -42,9 +42,8 @@ impl<const D: usize> Model for Running<'_, D> {
         }
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         for (name, probe) in &shown.probes {
-            let gathered = self.counters.probes.remove(name);
-            if let (Some(gathered), Some(sums)) = (gathered, probe.as_gathers()) {
-                sums.recall(&gathered);
+            if let Some(gathered) = self.counters.probes.remove(name) {
+                probe.recall(&gathered);
             }
         }
         self.energy = EnergyWatch::from_scene(scene, &self.parts.flow, self.counters.energies);

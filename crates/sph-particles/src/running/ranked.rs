@@ -66,7 +66,7 @@ pub(crate) fn columns_of_all<const D: usize>(
 
 /// True if a probe or an output needs lists and contacts.
 fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
-    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
+    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs_around())
 }
 
 impl<const D: usize> Running<'_, D> {
@@ -129,7 +129,7 @@ impl<const D: usize> Running<'_, D> {
 
     /// True if a probe needs lists and contacts.
     pub(crate) fn looks_around(&self) -> bool {
-        self.parts.probes.iter().any(|(_, p)| p.needs().around)
+        self.parts.probes.iter().any(|(_, p)| p.needs_around())
     }
 
     /// Counts the neighbours of the particles of this process.

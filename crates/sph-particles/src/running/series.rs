@@ -91,9 +91,7 @@ impl Extrema {
         }
         for (name, probe) in probes {
             let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
-            if let Some(sums) = probe.as_gathers() {
-                sums.gather(world)?;
-            }
+            probe.gather(world)?;
             row.extend(probe.measure(world)?);
         }
         self.density_range[0] = self.density_range[0].min(balance.least_density);

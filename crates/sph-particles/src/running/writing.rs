@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_probes::Probe;
 use sph_run::{Frames, RunCounters, Watch};
 
 use crate::failure::error::RunError;
@@ -16,9 +15,7 @@ use crate::setup::Probes;
 
 /// Sums of probes, by their names.
 fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
-    let one =
-        |(name, p): &(String, Box<dyn Probe<D>>)| Some((name.clone(), p.as_gathers()?.gathered()));
-    let all = probes.iter().filter_map(one);
+    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
     all.filter(|(_, gathered)| !gathered.is_empty()).collect()
 }
 

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
 const WIDTH: f64 = 2.0;
@@ -138,10 +138,6 @@ impl Probe<3> for ScourMap {
         Ok(())
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<3>> {
-        Some(self)
-    }
-
     fn measure(&self, world: &World<3>) -> Result<Vec<f64>, StepError> {
         let cells = self.cells(world)?;
         let depths = || cells.iter().map(|[.., height]| self.level - height);
@@ -153,9 +149,7 @@ impl Probe<3> for ScourMap {
             depths().map(|depth| depth.max(0.0) * area).sum(),
         ])
     }
-}
 
-impl Curves<3> for ScourMap {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let names = ["x", "y", "height", "depth"];
         names.map(|name| ProbeColumn::named(name, "m")).into()

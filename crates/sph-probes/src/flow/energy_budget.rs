@@ -5,7 +5,7 @@ use sph_neighbours::World;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Terms that give energy to a particle or take it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,17 +120,13 @@ impl<const D: usize> Probe<D> for EnergyBudget {
         Ok(())
     }
 
-    fn needs(&self) -> Needs<'_> {
-        Needs {
-            books: true,
-            ..Needs::default()
-        }
+    fn needs_books(&self) -> bool {
+        true
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let free = &world.free;
-        let mass = free.get(fields::MASS)?;
-        let velocity = free.get(fields::VELOCITY)?;
+        let (mass, velocity) = free.all((fields::MASS, fields::VELOCITY))?;
         let position = free.get(fields::POSITION)?;
         let sum = |field| -> Result<f64, StepError> { Ok(free.get(field)?.iter().sum()) };
         let kinetic = mass.iter().zip(velocity);

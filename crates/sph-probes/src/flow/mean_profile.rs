@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
-use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, contract};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -64,11 +64,9 @@ pub struct MeanProfile {
     sums: Mutex<Vec<f64>>,
 }
 
-/// Adds the values of a particle to a list.
 type Reader<'a> = Box<dyn Fn(usize, &mut Vec<f64>) + 'a>;
 
 impl MeanProfile {
-    /// Numbers of a layer.
     fn components<const D: usize>(&self) -> usize {
         if self.field.is_some() { 1 } else { D }
     }
@@ -98,7 +96,6 @@ impl MeanProfile {
         (0.0..1.0).contains(&share).then(layer)
     }
 
-    /// Reads the values of a particle into `into`.
     fn reader<'a, const D: usize>(&self, world: &'a World<D>) -> Result<Reader<'a>, StepError> {
         let Some(name) = &self.field else {
             let velocity = world.free.get(fields::VELOCITY)?;
@@ -109,8 +106,7 @@ impl MeanProfile {
     }
 
     fn sums(&self) -> Result<MutexGuard<'_, Vec<f64>>, StepError> {
-        let failed = |_| refused("a thread failed");
-        self.sums.lock().map_err(failed)
+        self.sums.lock().map_err(|_| refused("a thread failed"))
     }
 
     fn check<const D: usize>(&self) -> Result<(), StepError> {
@@ -139,7 +135,6 @@ impl MeanProfile {
         }
     }
 
-    /// The reference at a distance.
     fn expected(&self, distance: f64) -> Option<f64> {
         let rows = self.reference.iter().map(|[place, value]| (*place, *value));
         let (places, values): (Vec<f64>, Vec<f64>) = rows.unzip();
@@ -162,7 +157,7 @@ impl MeanProfile {
 }
 
 fn refused(reason: &str) -> StepError {
-    contract::refused("probe `mean-profile`", reason)
+    StepError::stage("probe `mean-profile`", reason)
 }
 
 impl<const D: usize> Probe<D> for MeanProfile {
@@ -189,21 +184,10 @@ impl<const D: usize> Probe<D> for MeanProfile {
         Ok(())
     }
 
-    fn needs(&self) -> Needs<'_> {
-        Needs {
-            fields: (self.field.iter())
-                .filter_map(|name| Quantity::named(name).column().map(String::from))
-                .collect(),
-            ..Needs::default()
-        }
-    }
-
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        Some(self)
-    }
-
-    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
-        Some(self)
+    fn needs_fields(&self) -> Vec<String> {
+        (self.field.iter())
+            .filter_map(|name| Quantity::named(name).column().map(String::from))
+            .collect()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -226,9 +210,7 @@ impl<const D: usize> Probe<D> for MeanProfile {
         let rms = (squares / rows.len() as f64).sqrt();
         Ok(vec![rms, largest, relative])
     }
-}
 
-impl<const D: usize> Curves<D> for MeanProfile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let mut all = vec![ProbeColumn::named("distance", "m")];
         let of = |what: &str, k: usize| match self.field {
@@ -268,9 +250,7 @@ impl<const D: usize> Curves<D> for MeanProfile {
         };
         Ok((0..self.layers).map(row).collect())
     }
-}
 
-impl<const D: usize> Gathers<D> for MeanProfile {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         if world.time < self.after {
             return Ok(());
@@ -278,8 +258,7 @@ impl<const D: usize> Gathers<D> for MeanProfile {
         let mut sums = self.sums()?;
         let (stride, components) = (self.stride::<D>(), self.components::<D>());
         sums.resize(self.layers * stride, 0.0);
-        let positions = world.free.get(fields::POSITION)?;
-        let volumes = world.free.get(fields::VOLUME)?;
+        let (positions, volumes) = world.free.all((fields::POSITION, fields::VOLUME))?;
         let read = self.reader(world)?;
         let mut values = Vec::new();
         for (i, x) in positions.iter().enumerate() {

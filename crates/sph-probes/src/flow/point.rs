@@ -1,9 +1,8 @@
-//! Pressure and velocity at a point.
+//! Pressures and velocity at a point, displacement of its material, and angular momentum about it.
 
 use sph_core::{StepError, Vect, fields, plugin, suggestion};
-use sph_neighbours::World;
+use sph_neighbours::{World, cross};
 
-use crate::contract::refused;
 use crate::sampling::mean_around;
 use crate::{Probe, ProbeColumn, ProbeEntry};
 
@@ -64,7 +63,7 @@ pub(crate) fn wall_number<const D: usize>(
     let names = &world.walls.names;
     names.iter().position(|n| n == wall).ok_or_else(|| {
         let near = suggestion(wall, names.iter().map(String::as_str));
-        refused(stage, format!("there is no wall `{wall}`{purpose}{near}"))
+        StepError::stage(stage, format!("there is no wall `{wall}`{purpose}{near}"))
     })
 }
 
@@ -127,5 +126,134 @@ impl<const D: usize> Probe<D> for VelocityProbe {
         let velocity = world.free.get(fields::VELOCITY)?;
         let mean = mean_around(world, point(&self.at), |j, _| velocity[j])?;
         Ok(mean.iter().copied().collect())
+    }
+}
+
+/// Pore-water pressure q = p − p' at a point: that of the water in the pores of a soil, and of the water beside it.
+///
+/// q = Σ V [q_b + ρ_w g·(x − r_b)] w / Σ V w, as `pressure` with the weight of the pores' fluid; 0 where there is
+/// nothing. p is the pressure of the equation of state and p' the effective pressure, 0 outside of soils. Only scenes
+/// with `[effective-pressure.PLUGIN]` have it; for such probes the field `pore_pressure` is computed.
+///
+/// Source: Ghaïtanellis 2017, Eqs. 2.91 and 5.26.
+///
+/// ```toml
+/// [gauge.PG1]
+/// kind = "pore-pressure"
+/// at = [1.2, 0.05]
+/// ```
+#[plugin(ProbeEntry [2, 3], "pore-pressure", "pressure of the water in a soil's pores at a point",
+    source: "p − p'; Ghaïtanellis 2017, Eqs. 2.91, 5.26")]
+pub struct PorePressureProbe {
+    /// Position, m.
+    #[parameter(unit: "m")]
+    pub at: Vec<f64>,
+    /// Density ρ_w of the fluid in the pores.
+    #[parameter(default: 1000.0, unit: "kg/m³", above: 0.0)]
+    pub density: f64,
+    /// Name of the moving wall that carries the sensor; it stands still if left out.
+    pub follows: Option<String>,
+}
+
+impl<const D: usize> Probe<D> for PorePressureProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::only("Pa")
+    }
+
+    fn needs_fields(&self) -> Vec<String> {
+        vec![fields::PORE_PRESSURE.name.into()]
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let pore = world.free.get(fields::PORE_PRESSURE).map_err(|_| {
+            let reason =
+                "there is no pore pressure without an effective one: [effective-pressure.PLUGIN]";
+            StepError::stage("probes", reason)
+        })?;
+        let x = carried(world, point::<D>(&self.at), self.follows.as_deref())?;
+        let own = |j: usize, d: &Vect<D>| [pore[j] + self.density * world.gravity.dot(d)].into();
+        Ok(vec![mean_around::<D, 1>(world, x, own)?[0]])
+    }
+}
+
+/// Mean displacement of the particles that started within one spacing of a point.
+///
+/// ```toml
+/// [probe.tip]
+/// kind = "displacement"
+/// at = [0.2, 0.0]
+/// ```
+#[plugin(ProbeEntry [2, 3], "displacement", "how far the material of a place has moved",
+    source: "mean over the particles that started there")]
+pub struct DisplacementProbe {
+    /// Position of the material at the start.
+    #[parameter(unit: "m")]
+    pub at: Vec<f64>,
+}
+
+impl<const D: usize> Probe<D> for DisplacementProbe {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        ProbeColumn::components(D, "m")
+    }
+
+    fn needs_displacement(&self) -> bool {
+        true
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let at = point::<D>(&self.at);
+        let (position, displacement) = world.free.all((fields::POSITION, fields::DISPLACEMENT))?;
+        let near = position.iter().zip(displacement).filter(|(x, moved)| {
+            let start = world.domain.wrapped(*x - *moved);
+            // A little more than one spacing: a place on the lattice must not depend on rounding.
+            world.domain.nearest_image(start - at).norm() < 1.001 * world.spacing
+        });
+        let (mut count, mut sum) = (0.0, Vect::<D>::zeros());
+        for (_, moved) in near {
+            count += 1.0;
+            sum += moved;
+        }
+        // Without particles NaN: there is nothing to measure.
+        Ok((sum / count).iter().copied().collect())
+    }
+}
+
+/// Σ m (r − c) × u over all particles; one column in two dimensions, three in three.
+///
+/// ```toml
+/// [probe.spin]
+/// kind = "angular-momentum"
+/// about = [0.5, 0.5]
+/// ```
+#[plugin(ProbeEntry [2, 3], "angular-momentum", "angular momentum of the fluid about a point", source: "Σ m r × u")]
+pub struct AngularMomentum {
+    /// Point c; the origin if left out.
+    #[parameter(default, unit: "m")]
+    pub about: Vec<f64>,
+    /// All columns are divided by this.
+    #[parameter(default: 1.0, unit: "kg m²/s", above: 0.0)]
+    pub scale: f64,
+}
+
+impl<const D: usize> Probe<D> for AngularMomentum {
+    fn columns(&self) -> Vec<ProbeColumn> {
+        let unit = match (D, self.scale == 1.0) {
+            (_, false) => "1",
+            (2, _) => "kg m/s",
+            _ => "kg m²/s",
+        };
+        ProbeColumn::turns(D, unit)
+    }
+
+    fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
+        let about = point::<D>(&self.about);
+        let (position, velocity) = world.free.all((fields::POSITION, fields::VELOCITY))?;
+        let mass = world.free.get(fields::MASS)?;
+        let mut sum = [0.0; 3];
+        for ((x, u), m) in position.iter().zip(velocity).zip(mass) {
+            let spin = cross(&(x - about), u);
+            (0..3).for_each(|k| sum[k] += m * spin[k] / self.scale);
+        }
+        Ok(sum[if D == 2 { 2 } else { 0 }..].to_vec())
     }
 }

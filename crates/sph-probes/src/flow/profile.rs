@@ -5,7 +5,7 @@ use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
 /// Root mean square over a reference's places of u − e, with u a component of the velocity on a straight
 /// line and e the reference, and the largest |u − e|, m/s. The profile itself is its curve.
@@ -51,7 +51,7 @@ impl Profile {
             .unwrap_or_else(Vect::zeros);
         let component = self.component as usize;
         let rows = self.reference.iter().map(|[s, e]| {
-            let u = fitted_velocity(world, &(from + along * *s))?;
+            let u = fitted(world, &(from + along * *s))?;
             let u = u.map_or(f64::NAN, |u| u.get(component).copied().unwrap_or(0.0));
             Ok([*s, u, *e])
         });
@@ -63,12 +63,8 @@ impl Profile {
 const LEAST: f64 = 1e-6;
 
 /// The velocity at a place by a linear fit of the particles around; none where there is no particle.
-fn fitted_velocity<const D: usize>(
-    world: &World<D>,
-    x: &Vect<D>,
-) -> Result<Option<Vect<D>>, StepError> {
-    let positions = world.free.get(fields::POSITION)?;
-    let velocities = world.free.get(fields::VELOCITY)?;
+fn fitted<const D: usize>(world: &World<D>, x: &Vect<D>) -> Result<Option<Vect<D>>, StepError> {
+    let (positions, velocities) = world.free.all((fields::POSITION, fields::VELOCITY))?;
     let volumes = world.free.get(fields::VOLUME)?;
     let points = &world.walls.points;
     let h = world.kernel.smoothing_length();
@@ -83,8 +79,7 @@ fn fitted_velocity<const D: usize>(
         let weight = volume * world.kernel.at(r).0;
         let basis = DVector::from_fn(D + 1, |k, _| if k == 0 { 1.0 } else { apart[k - 1] / h });
         matrix.ger(weight, &basis, &basis, 1.0);
-        let u = DVector::from_fn(D, |k, _| u[k]);
-        right.ger(weight, &basis, &u, 1.0);
+        right.ger(weight, &basis, &DVector::from_fn(D, |k, _| u[k]), 1.0);
         true
     };
     let mut some = false;
@@ -124,10 +119,6 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(())
     }
 
-    fn as_curves(&self) -> Option<&dyn Curves<D>> {
-        Some(self)
-    }
-
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let rows = self.sampled(world)?;
         let off = || rows.iter().map(|[_, u, e]| u - e).filter(|d| !d.is_nan());
@@ -139,9 +130,7 @@ impl<const D: usize> Probe<D> for Profile {
         let largest = off().fold(0.0, |m: f64, d| m.max(d.abs()));
         Ok(vec![(squares / count as f64).sqrt(), largest])
     }
-}
 
-impl<const D: usize> Curves<D> for Profile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[("distance", "m"), ("velocity", "m/s"), ("reference", "m/s")])
     }

@@ -3,22 +3,18 @@
 use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::{WallForce, World, cross};
 
-use crate::contract::refused;
 use crate::flow::point::{point, wall_number};
-use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
+use crate::{Probe, ProbeColumn, ProbeEntry};
 
-/// Force and moment of the fluid on a named wall, pressure and friction together, and the
-/// pressure integral by itself.
+/// Force and moment of the fluid on a named wall, pressure and friction together, and the pressure integral by itself.
 ///
-/// The force is the reaction to the force of the wall on the particles, F = −Σ m_a a_a,wall: with the
-/// weight it is the whole change of the fluid's momentum. The columns `.pressure` are
-/// −Σ p_s S_s n_s over the wall's elements (none with dummy particles). In two dimensions forces
-/// are per metre of depth.
+/// The force is the reaction to the force of the wall on the particles, F = −Σ m_a a_a,wall: with the weight it is the
+/// whole change of the fluid's momentum. The columns `.pressure` are −Σ p_s S_s n_s over the wall's elements (none with
+/// dummy particles). In two dimensions forces are per metre of depth.
 ///
-/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it
-/// is that of a body larger by this half spacing: 1.30 times the buoyancy of the block of the
-/// tests, where the pressure integral gives 1.03. Take `.pressure` for buoyancy, but for `walls.symmetric`, whose reaction
-/// is the displaced weight.
+/// The reaction balances the particles, which begin half a spacing off the wall: under gravity it is that of a body
+/// larger by this half spacing: 1.30 times the buoyancy of the block of the tests, where the pressure integral gives
+/// 1.03. Take `.pressure` for buoyancy, but for `walls.symmetric`, whose reaction is the displaced weight.
 ///
 /// ```toml
 /// [probe.drag]
@@ -52,11 +48,8 @@ impl<const D: usize> Probe<D> for WallForceProbe {
         [forces.clone(), moments, under(".pressure", forces)].concat()
     }
 
-    fn needs(&self) -> Needs<'_> {
-        Needs {
-            force_on: Some(&self.wall),
-            ..Needs::default()
-        }
+    fn needs_force_on(&self) -> Option<&str> {
+        Some(&self.wall)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -104,11 +97,8 @@ impl<const D: usize> Probe<D> for WallMotionProbe {
             2 => &[(".angle", "rad")][..],
             _ => &[(".rx", "rad"), (".ry", "rad"), (".rz", "rad")],
         };
-        [
-            ProbeColumn::components(D, "m"),
-            ProbeColumn::several(angles),
-        ]
-        .concat()
+        let shift = ProbeColumn::components(D, "m");
+        [shift, ProbeColumn::several(angles)].concat()
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -177,7 +167,7 @@ impl<const D: usize> Probe<D> for MooringProbe {
         let pull = lines.get(self.line as usize).ok_or_else(|| {
             let (wall, count, line) = (&self.wall, lines.len(), self.line);
             let reason = format!("`{wall}` has {count} lines: there is no number {line}");
-            refused(stage, reason)
+            StepError::stage(stage, reason)
         })?;
         let mut values: Vec<f64> = pull.force.iter().copied().collect();
         values.extend([pull.force.norm(), pull.anchor]);
@@ -217,7 +207,7 @@ impl<const D: usize> Probe<D> for PassedProbe {
         if let Some(wall) = self.wall.as_ref().filter(|w| open().all(|n| n != *w)) {
             let near = suggestion(wall, open());
             let reason = format!("there is no open wall `{wall}`{near}");
-            return Err(refused("probe `passed`", reason));
+            return Err(StepError::stage("probe `passed`", reason));
         }
         let wanted = |wall: u32| self.wall.as_ref().is_none_or(|w| w == name(wall));
         let mut sums = vec![0.0; 3];

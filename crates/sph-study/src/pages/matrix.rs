@@ -1,18 +1,13 @@
 //! The page of a study that goes along axes until they break, and its plots.
 
-use std::fmt::Write as _;
-
 use sph_core::{comma_list, number};
 use sph_io::{IoError, Plot, Series, Style, escape};
 use sph_run::Trouble;
 
-use crate::pages::grid::grid;
+use crate::pages::plots::grid;
 use crate::{Colour, Frontier, Results, Status, VariantResult};
 
 /// All between the head of the page and the study file.
-///
-/// # Errors
-/// If a plot cannot be drawn.
 pub fn body(results: &Results) -> Result<String, IoError> {
     let mut page = String::from("<h2>Frontiers</h2>\n");
     page.push_str(
@@ -23,20 +18,15 @@ pub fn body(results: &Results) -> Result<String, IoError> {
     );
     page.push_str(&frontiers(results));
     for (lines, plot) in axes(results) {
-        let _ = writeln!(
-            page,
-            "<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>",
-            escape(&lines[0].axis),
-            escape(&lines[0].title),
-            escape(&bounds(&lines[0]))
-        );
+        let bounds = bounds(&lines[0]);
+        let [axis, title, bounds] = [&lines[0].axis, &lines[0].title, &bounds].map(|t| escape(t));
+        page += &format!("<h2 id=\"{axis}\">{title}</h2>\n<p>{bounds}</p>\n");
         page.push_str(&plot.to_svg()?);
         page.push_str(&runs(results, lines));
     }
     Ok(page)
 }
 
-/// The bounds of an axis in words.
 fn bounds(frontier: &Frontier) -> String {
     let one = |(name, bounds): (&String, &[f64; 2])| {
         let [green, yellow] = bounds.map(number::plain);
@@ -50,7 +40,7 @@ fn frontiers(results: &Results) -> String {
     let mut text = String::from("<div class=\"wide\"><table class=\"frontier\">\n");
     for frontier in &results.frontiers {
         let (axis, combination) = (escape(&frontier.axis), escape(&frontier.combination));
-        let _ = write!(text, "<tr><th>{axis}</th><td>{combination}</td>");
+        text += &format!("<tr><th>{axis}</th><td>{combination}</td>");
         for (label, name) in frontier.values.iter().zip(&frontier.variants) {
             let verdict = results.variant(name).and_then(|v| v.verdict.as_ref());
             let (class, why) = verdict.map_or(("none", "not run"), |v| (v.colour.name(), &v.why));
@@ -59,10 +49,7 @@ fn frontiers(results: &Results) -> String {
                 false => "",
             };
             let (why, label) = (escape(why), escape(label));
-            let _ = write!(
-                text,
-                "<td class=\"{class}{must}\" title=\"{why}\">{label}</td>"
-            );
+            text += &format!("<td class=\"{class}{must}\" title=\"{why}\">{label}</td>");
         }
         text.push_str("</tr>\n");
     }
@@ -84,6 +71,7 @@ fn row(frontier: &Frontier, v: &VariantResult) -> [(&'static str, String); 12] {
     let seconds = v.wall_seconds.min.or(spent);
     let density = health.density_range;
     let density = density.map(|[low, high]| format!("{low:.3}…{high:.3}"));
+    let steps = (v.size.steps > 0).then(|| number::count(v.size.steps as f64));
     let row = [
         ("combination", Some(value("combination"))),
         ("value", Some(value("value"))),
@@ -95,10 +83,7 @@ fn row(frontier: &Frontier, v: &VariantResult) -> [(&'static str, String); 12] {
         ("density", density),
         ("Mach", health.mach.map(number::plain)),
         ("limited by", v.dt_limiter.clone()),
-        (
-            "steps",
-            (v.size.steps > 0).then(|| number::count(v.size.steps as f64)),
-        ),
+        ("steps", steps),
         ("wall time", seconds.map(|s| format!("{s:.1} s"))),
     ];
     row.map(|(head, cell)| (head, cell.unwrap_or("–".into())))
@@ -161,14 +146,6 @@ pub fn axes(results: &Results) -> impl Iterator<Item = (&[Frontier], Plot)> {
     axes.map(|lines| (lines, plot(results, lines)))
 }
 
-/// Ordinate of a run: the first error of its axis, or its largest deviation of the density.
-fn ordinate(frontier: &Frontier, variant: &VariantResult) -> Option<f64> {
-    match frontier.errors.first() {
-        Some(error) => variant.error(error),
-        None => variant.health.density_deviation(),
-    }
-}
-
 fn plot(results: &Results, lines: &[Frontier]) -> Plot {
     let first = &lines[0];
     let mut series = Vec::new();
@@ -182,7 +159,11 @@ fn plot(results: &Results, lines: &[Frontier]) -> Plot {
             };
             let verdict = variant.verdict.as_ref();
             let red = verdict.is_some_and(|v| v.colour == Colour::Red);
-            match ordinate(frontier, variant).filter(|y| y.is_finite()) {
+            let ordinate = match frontier.errors.first() {
+                Some(error) => variant.error(error),
+                None => variant.health.density_deviation(),
+            };
+            match ordinate.filter(|y| y.is_finite()) {
                 // A logarithmic axis cannot show an error of zero.
                 Some(y) => points.push([place, y.max(1e-16)]),
                 None if red => broken.push(place),

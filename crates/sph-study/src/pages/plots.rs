@@ -1,9 +1,9 @@
-//! Plots of a study: error against time, and error against refinement.
+//! Plots of a study, error against time and against refinement, and tables of pages.
 
 use std::collections::BTreeMap;
 
 use sph_core::some_unit;
-use sph_io::{Plot, Series, Style};
+use sph_io::{Plot, Series, Style, escape};
 
 use crate::{Orders, Results, SeriesCost, SeriesResult};
 
@@ -12,7 +12,6 @@ const MOST: usize = 12;
 /// Series that are named where there are more than that.
 const BEST: usize = 6;
 
-/// A plot with logarithmic axes.
 fn logarithmic(results: &Results, x_label: String, y_label: String, series: Vec<Series>) -> Plot {
     Plot {
         title: results.title.clone(),
@@ -30,8 +29,7 @@ pub fn work_precision(results: &Results) -> Option<Plot> {
     let time_and_error = |names: &[String]| -> Vec<[f64; 2]> {
         let point = |name: &String| {
             let variant = results.variant(name)?;
-            let error = variant.error(results.judged())?;
-            Some([variant.wall_seconds.min?, error])
+            Some([variant.wall_seconds.min?, variant.error(results.judged())?])
         };
         names.iter().filter_map(point).collect()
     };
@@ -153,4 +151,31 @@ fn y_label(results: &Results) -> String {
         }
         None => format!("error of {name}"),
     }
+}
+
+/// A table with its heads, if there are any; every row has a class.
+pub(crate) fn grid<H: AsRef<str>>(
+    heads: &[H],
+    rows: &[Vec<String>],
+    class: impl Fn(usize) -> String,
+) -> String {
+    fn cells<C: AsRef<str>>(row: &[C], tag: &str) -> String {
+        let cell = |c: &C| format!("<{tag}>{}</{tag}>", escape(c.as_ref()));
+        row.iter().map(cell).collect()
+    }
+    let mut text = String::from("<div class=\"wide\"><table>\n");
+    if !heads.is_empty() {
+        text += &format!("<tr>{}</tr>\n", cells(heads, "th"));
+    }
+    for (k, row) in rows.iter().enumerate() {
+        text += &match class(k).as_str() {
+            "" => format!("<tr>{}</tr>\n", cells(row, "td")),
+            class => format!("<tr class=\"{class}\">{}</tr>\n", cells(row, "td")),
+        };
+    }
+    text + "</table></div>\n"
+}
+
+pub(crate) fn plain_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
+    grid(heads, rows, |_| String::new())
 }

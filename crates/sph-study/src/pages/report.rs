@@ -1,48 +1,38 @@
-//! `report.html`: all of a study on one page that needs no other file.
+//! Files that a study leaves: `report.html` has all of it on one page that needs no other file.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
+use std::path::Path;
 
 use sph_core::{comma_list, number};
-use sph_io::{IoError, escape};
+use sph_io::{IoError, Plot, escape, write_whole};
 
-use crate::pages::grid::{grid, plain_grid};
+use crate::pages::plots::{grid, plain_grid};
 use crate::pages::{matrix, plots, table};
+use crate::reading::combine::safe;
 use crate::{Origin, Results, Scale, Status};
 
 /// Style of the page, on paper too.
 const STYLE: &str = include_str!("../../templates/report.css");
 
-/// The page.
-///
-/// # Errors
-/// If a plot cannot be drawn.
-pub fn html(results: &Results) -> Result<String, IoError> {
-    let mut page = String::new();
+fn html(results: &Results) -> Result<String, IoError> {
     let title = escape(&results.title);
-    let _ = writeln!(
-        page,
+    let mut page = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n",
     );
     if let Some(description) = &results.description {
-        let _ = writeln!(page, "<p>{}</p>", marked(&words(description)));
+        page += &format!("<p>{}</p>\n", marked(&words(description)));
     }
     page.push_str(&facts(results));
     match results.frontiers.is_empty() {
         true => page.push_str(&compared(results)?),
         false => page.push_str(&matrix::body(results)?),
     }
-    let _ = writeln!(
-        page,
-        "<h2>Study file</h2>\n<pre>{}</pre>\n</body>\n</html>",
-        lines(&results.definition)
-    );
-    Ok(page)
+    let lines = lines(&results.definition);
+    Ok(page + &format!("<h2>Study file</h2>\n<pre>{lines}</pre>\n</body>\n</html>\n"))
 }
 
-/// Errors, times and orders of variants of one scene.
 fn compared(results: &Results) -> Result<String, IoError> {
     let mut page = String::new();
     let lines = results.scale.iter().flat_map(Scale::lines);
@@ -77,7 +67,6 @@ fn headed(title: &str, body: &str) -> String {
     }
 }
 
-/// A text without its line breaks.
 fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -132,9 +121,10 @@ fn facts(results: &Results) -> String {
         ("variants ran with", |o| Some(o.built_with.clone())),
     ];
     for (name, of) in unlike {
-        let all = differing(results, of);
-        if all.len() > 1 {
-            rows.push(row(name, all.join("; ")));
+        let ran = all().filter(|v| v.size.steps > 0);
+        let each: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
+        if each.len() > 1 {
+            rows.push(row(name, Vec::from_iter(each).join("; ")));
         }
     }
     if !results.set.is_empty() {
@@ -145,13 +135,6 @@ fn facts(results: &Results) -> String {
 
 /// A text of where and with what a variant has run, if it is known.
 type PartOfOrigin = fn(&Origin) -> Option<String>;
-
-/// Keys in which the variants that have run differ.
-fn differing(results: &Results, of: PartOfOrigin) -> Vec<String> {
-    let ran = results.variants.iter().filter(|v| v.size.steps > 0);
-    let all: BTreeSet<String> = ran.filter_map(|v| of(&v.origin)).collect();
-    Vec::from_iter(all)
-}
 
 fn orders(results: &Results) -> String {
     let two = |o: &f64| format!("{o:.2}");
@@ -168,7 +151,6 @@ fn orders(results: &Results) -> String {
     some_grid(&heads, &rows)
 }
 
-/// A table whose rows are alike, if it has any.
 fn some_grid(heads: &[&str], rows: &[Vec<String>]) -> String {
     match rows.is_empty() {
         true => String::new(),
@@ -227,6 +209,35 @@ fn stages(results: &Results) -> String {
     }
     let grid = some_grid(&["variant", "stage", "seconds", "share"], &rows);
     headed("Where the time goes", &grid)
+}
+
+/// Writes `study.json`, `study.csv`, the plots and `report.html` into a folder.
+///
+/// # Errors
+/// The first file that cannot be written.
+pub fn publish(results: &Results, folder: &Path) -> Result<(), IoError> {
+    sph_io::write_json(folder.join("study.json"), results)?;
+    table::write_csv(results, &folder.join("study.csv"))?;
+    for (lines, plot) in matrix::axes(results) {
+        write_both(&plot, folder, &format!("axis-{}", safe(&lines[0].axis)))?;
+    }
+    if results.frontiers.is_empty() {
+        let plots = [
+            ("error-against-time", plots::work_precision(results)),
+            ("cost-against-size", plots::costs(results)),
+            ("means", plots::means(results)),
+            ("error-against-refinement", plots::convergence(results)),
+        ];
+        for (name, plot) in plots {
+            plot.map_or(Ok(()), |plot| write_both(&plot, folder, name))?;
+        }
+    }
+    write_whole(folder.join("report.html"), html(results)?)
+}
+
+fn write_both(plot: &Plot, folder: &Path, name: &str) -> Result<(), IoError> {
+    plot.save(folder.join(format!("{name}.svg")))?;
+    plot.save(folder.join(format!("{name}.png")))
 }
 
 #[cfg(test)]

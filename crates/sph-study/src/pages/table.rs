@@ -29,7 +29,6 @@ fn with_heads(rows: impl Iterator<Item = Vec<(String, String)>>) -> Vec<Vec<Stri
     all
 }
 
-/// A variant as a row, each cell with its head.
 fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
     let none = || "–".to_string();
     let number = |x: Option<f64>| x.map_or_else(none, number::plain);
@@ -77,8 +76,7 @@ fn row(results: &Results, v: &VariantResult) -> Vec<(String, String)> {
 
 /// The least time, with the spread where there are several.
 fn seconds(v: &VariantResult) -> Option<String> {
-    let least = v.wall_seconds.min?;
-    let text = match least {
+    let text = match v.wall_seconds.min? {
         s if s < 100.0 => format!("{} s", number::plain((s * 1e3).round() / 1e3)),
         s => number::duration(s),
     };
@@ -89,9 +87,6 @@ fn seconds(v: &VariantResult) -> Option<String> {
 }
 
 /// Writes one row of plain numbers per variant.
-///
-/// # Errors
-/// If the file cannot be written.
 pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
     let errors = errors(results);
     let rows = with_heads(results.variants.iter().map(|v| plain(results, &errors, v)));
@@ -100,7 +95,6 @@ pub fn write_csv(results: &Results, path: &Path) -> Result<(), IoError> {
     write_whole(path, lines.collect::<String>())
 }
 
-/// Plain numbers of a variant, with the heads of their columns.
 fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String, String)> {
     let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x}"));
     let value = |axis: &String| clean(&v.values[axis]).into_owned();
@@ -113,6 +107,8 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
     row.extend((errors.iter()).map(|e| (format!("error.{e}"), number(v.error(e)))));
     let (health, verdict, solves) = (&v.health, v.verdict.as_ref(), v.solves.as_ref());
     let trouble = health.first_trouble.as_ref();
+    let trouble = trouble.map_or(String::new(), matrix::trouble);
+    let density = |k: usize| number(health.density_range.map(|range| range[k]));
     let rest = [
         ("order", number(v.order)),
         ("wall_seconds", number(v.wall_seconds.min)),
@@ -127,18 +123,12 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
         ("dt_limiter", v.dt_limiter.clone().unwrap_or_default()),
         ("colour", verdict.map_or("", |v| v.colour.name()).into()),
         ("why", verdict.map_or(String::new(), |v| v.why.clone())),
-        (
-            "first_trouble",
-            trouble.map_or(String::new(), matrix::trouble),
-        ),
+        ("first_trouble", trouble),
         ("energy_drift", number(health.energy_drift)),
         ("energy_rise", number(health.energy_rise)),
         ("momentum_drift", number(health.momentum_drift)),
-        ("least_density", number(health.density_range.map(|r| r[0]))),
-        (
-            "largest_density",
-            number(health.density_range.map(|r| r[1])),
-        ),
+        ("least_density", density(0)),
+        ("largest_density", density(1)),
         ("mach", number(health.mach)),
         ("escaped", health.escaped.to_string()),
         ("reason", v.reason.clone().unwrap_or_default()),
@@ -147,7 +137,6 @@ fn plain(results: &Results, errors: &[String], v: &VariantResult) -> Vec<(String
     row
 }
 
-/// Names of all errors in the report.
 fn errors(results: &Results) -> Vec<String> {
     let mut all = results.errors.clone();
     for name in results.frontiers.iter().flat_map(|f| &f.errors) {

@@ -11,31 +11,25 @@ use crate::reading::file;
 /// A scene value with the place of the study file that gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Set {
-    /// Settings put on the scene.
     pub value: Override,
-    /// Path in the study file.
     pub path: String,
 }
 
 /// A direction in which variants differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyAxis {
-    /// Name in tables and plots.
     pub name: String,
-    /// The places on it.
     pub choices: Vec<Choice>,
 }
 
 /// A place on an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choice {
-    /// Name in tables and plots.
     pub label: String,
     /// Name in folders: the label, after the axis' name where the label is a bare value.
     pub slug: String,
     /// Name of a scene in place of the study's, and its path in the study file.
     pub scene: Option<(String, String)>,
-    /// Keys and values that it sets.
     pub sets: Vec<Set>,
 }
 
@@ -59,7 +53,6 @@ impl StudyAxis {
     }
 }
 
-/// Most axes of a study.
 const AXES: usize = 100;
 
 /// All axes of a study file.
@@ -106,8 +99,7 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, ScenePr
                 return Err(problem(".labels", why));
             }
             let choice = |(k, value): (usize, &Value)| {
-                let at = format!("{at}.values[{k}]");
-                let set = set(key, value.clone(), at)?;
+                let set = set(key, value.clone(), format!("{at}.values[{k}]"))?;
                 let bare = label(value);
                 let given = labels.map(|l| l[k].clone());
                 Ok(Choice {
@@ -162,8 +154,7 @@ fn set(key: &str, value: Value, at: String) -> Result<Set, SceneProblem> {
 
 /// The scene values of a table, whose keys are paths as in `--set` or tables of such.
 ///
-/// A table under a plain key is gone into; one under a key with a dot, and an empty one, is the
-/// value itself.
+/// A table under a plain key is gone into; one under a key with a dot, and an empty one, is the value itself.
 ///
 /// # Errors
 /// A key that is no path.

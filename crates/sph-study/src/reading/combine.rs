@@ -16,9 +16,7 @@ const LONGEST: usize = 120;
 /// A variant: the number of the choice taken on every axis, and its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Combination {
-    /// Name, which is that of its folder too.
     pub name: String,
-    /// One number per axis.
     pub choices: Vec<usize>,
 }
 

@@ -1,21 +1,19 @@
 //! Axes that are gone along from harmless to absurd, each with its own scene.
 
 use sph_core::{SceneProblem, comma_list, suggestion};
-use sph_scene::Source;
 
 use crate::reading::axis::label;
 use crate::reading::combine::{MOST, combinations, safe};
 use crate::reading::reader::{Inputs, Reader};
 use crate::reading::{axis, file};
 use crate::{
-    Bounds, Choice, Combine, Ladder, QUANTITIES, Refused, Rung, SceneText, StudyAxis, StudyFile,
-    Variant,
+    Bounds, Choice, Combine, Frontier, Ladder, QUANTITIES, Refused, Rung, SceneText, StudyAxis,
+    StudyFile, Variant,
 };
 
 /// Names of the axes to which the labels of such a study's variants belong.
 const COLUMNS: [&str; 3] = ["axis", "combination", "value"];
 
-/// The axes of such a study as a table has them.
 pub fn columns() -> Vec<StudyAxis> {
     COLUMNS.map(|name| column(name, Vec::new())).to_vec()
 }
@@ -29,11 +27,8 @@ fn column(name: &str, choices: Vec<Choice>) -> StudyAxis {
 ///
 /// # Errors
 /// All mistakes of the axes, else all of their scenes.
-pub fn read(
-    file: &StudyFile,
-    source: &Source,
-    inputs: &Inputs<'_>,
-) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
+pub fn read(inputs: &Inputs<'_>) -> Result<(Vec<Ladder>, Vec<Variant>), Refused> {
+    let (file, source) = (&inputs.file, &inputs.source);
     let mut problems = study_problems(file);
     let mut ladders = Vec::new();
     for (k, given) in file.axis.iter().enumerate() {
@@ -61,8 +56,6 @@ pub fn read(
         }
         let errors = &file.axis[k].error;
         let reader = Reader {
-            file,
-            source,
             inputs,
             scene,
             axes,
@@ -89,7 +82,6 @@ pub fn read(
     }
 }
 
-/// Mistakes of the study as a whole.
 fn study_problems(file: &StudyFile) -> Vec<SceneProblem> {
     let mut problems = Vec::new();
     let mut problem = |path: String, message: &str| problems.push(SceneProblem::new(path, message));
@@ -136,8 +128,7 @@ fn one(
     let labels: Vec<String> = values.choices.iter().map(|c| c.label.clone()).collect();
     let must = given.must.as_ref().map(|must| {
         let must = label(must);
-        let place = labels.iter().position(|l| *l == must);
-        place.ok_or_else(|| {
+        labels.iter().position(|l| *l == must).ok_or_else(|| {
             let known = labels.join(", ");
             let why = format!("the axis has no `{must}` (it has: {known})");
             problem(".must", why)
@@ -146,8 +137,7 @@ fn one(
     let must = must.transpose()?;
     let named = given.scene.as_ref().or(file.scene.as_ref());
     let missing = || problem("", "neither the axis nor the study has a scene".into());
-    let scene = find(named.ok_or_else(missing)?);
-    let scene = scene.map_err(|why| problem(".scene", why))?;
+    let scene = find(named.ok_or_else(missing)?).map_err(|why| problem(".scene", why))?;
     let errors = given.error.paths(&format!("{at}.error"));
     let errors: Vec<String> = errors.into_iter().map(|e| e.0).collect();
     let (judge, path) = match given.judge.is_empty() {
@@ -161,14 +151,19 @@ fn one(
         column(combination, plugins(file, given)?),
         column(value, values.choices),
     ];
-    let ladder = Ladder {
-        name: given.name.clone(),
+    let frontier = Frontier {
+        axis: given.name.clone(),
         title: given.title.clone(),
         scene: scene.name.clone(),
         errors,
-        labels,
-        must,
         judge: judge.clone(),
+        must: must.map(|k| labels[k].clone()),
+        values: labels,
+        ..Frontier::default()
+    };
+    let ladder = Ladder {
+        frontier,
+        must,
         to_the_end: given.to_the_end,
     };
     Ok((ladder, scene, axes))

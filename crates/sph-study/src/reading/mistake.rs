@@ -1,6 +1,5 @@
 //! Mistakes of a study, each in the text where it was made.
 
-use std::fmt;
 use std::sync::Arc;
 
 use sph_core::SceneProblem;
@@ -27,20 +26,12 @@ impl Mistake {
 }
 
 /// A study that cannot be run; nothing was written.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{}", .mistakes.iter().map(|m| m.diagnostic.to_string()).collect::<Vec<_>>().join("\n"))]
 pub struct Refused {
     /// Every mistake found, without repetitions.
     pub mistakes: Vec<Mistake>,
 }
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all = self.mistakes.iter().map(|m| m.diagnostic.to_string());
-        f.write_str(&all.collect::<Vec<_>>().join("\n"))
-    }
-}
-
-impl std::error::Error for Refused {}
 
 impl Refused {
     /// Problems of the study file itself.

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::{RegistryError, SceneProblem, suggestion, typed};
 use sph_scene::{Override, Source, read_text};
-use toml::Table;
 
 use crate::reading::combine::{combinations, fits};
 use crate::reading::mistake::placed;
@@ -19,18 +18,16 @@ pub struct Study {
     pub name: String,
     /// The file.
     pub file: StudyFile,
-    /// Name of the scene.
-    pub scene: String,
+    pub(crate) scene: String,
     /// Names of the references that are judged, the first one by plots.
     pub errors: Vec<String>,
-    /// The axes.
-    pub axes: Vec<StudyAxis>,
+    pub(crate) axes: Vec<StudyAxis>,
     /// Key over which the order of convergence is computed.
-    pub refinement: Option<String>,
+    pub(crate) refinement: Option<String>,
     /// Axes that are gone along until they break, instead of varied values.
     pub ladders: Vec<Ladder>,
     /// Settings put on top of every variant, as of `--set`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
     source: Source,
@@ -39,8 +36,7 @@ pub struct Study {
 impl Study {
     /// Reads a study file and the scenes of all its variants.
     ///
-    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are
-    /// shown but not run.
+    /// `set` is put on top of every variant; variants that fit none of the patterns `only` are shown but not run.
     ///
     /// # Errors
     /// Every mistake of the study and of the scenes that follow from it.
@@ -69,18 +65,23 @@ impl Study {
         let source = Source::new(text, &path.display().to_string(), &[]);
         let table = source.table();
         let table = table.map_err(|found| Refused::from_diagnostics(&source, found))?;
-        let file = study_file(&table).map_err(|found| Refused::in_study(&source, &found))?;
+        let file = typed(&table).map_err(|error| match error {
+            RegistryError::Parameters(problems) => Refused::in_study(&source, &problems),
+            other => Refused::at(&source, "", other.to_string()),
+        })?;
         let name = path.file_stem().and_then(|s| s.to_str());
         let folder = path.parent().unwrap_or(Path::new(""));
         let inputs = Inputs {
             name: name.unwrap_or("study").to_string(),
+            file,
+            source,
             find: &|scene| find(folder, scene),
             set,
             only,
         };
-        let study = match file.axis.is_empty() {
-            true => varied(&inputs, file, source)?,
-            false => plan_ladders(&inputs, file, source)?,
+        let study = match inputs.file.axis.is_empty() {
+            true => varied(inputs)?,
+            false => plan_ladders(inputs)?,
         };
         let fitted = |p: &String| study.variants.iter().any(|v| fits(p, &v.name));
         if let Some(pattern) = only.iter().find(|p| !fitted(p)) {
@@ -130,10 +131,10 @@ impl Study {
     }
 }
 
-/// Variants of one scene.
-fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
-    let refused = |problems: Vec<SceneProblem>| Refused::in_study(&source, &problems);
-    let at = |path: &str, why: String| Refused::at(&source, path, why);
+fn varied(inputs: Inputs<'_>) -> Result<Study, Refused> {
+    let (file, source) = (&inputs.file, &inputs.source);
+    let refused = |problems: Vec<SceneProblem>| Refused::in_study(source, &problems);
+    let at = |path: &str, why: String| Refused::at(source, path, why);
     let axes = axis::axes(&file.vary).map_err(refused)?;
     let all = combinations(&axes, file.combine, &file.skip).map_err(refused)?;
     let errors = file.error.paths("error");
@@ -151,10 +152,8 @@ fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study,
     let between = file.scaling.as_ref().and_then(|s| s.between.as_ref());
     if let Some(name) = between.filter(|name| !axes.iter().any(|a| a.name == **name)) {
         let near = suggestion(name, axes.iter().map(|a| a.name.as_str()));
-        return Err(at(
-            "scaling.between",
-            format!("there is no axis `{name}`{near}"),
-        ));
+        let why = format!("there is no axis `{name}`{near}");
+        return Err(at("scaling.between", why));
     }
     let scene = match &file.scene {
         Some(scene) => (inputs.find)(scene),
@@ -162,50 +161,49 @@ fn varied(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study,
     };
     let scene = scene.map_err(|why| at("scene", why))?;
     let reader = Reader {
-        file: &file,
-        source: &source,
-        inputs,
+        inputs: &inputs,
         scene: &scene,
         axes: &axes,
         common: axis::sets(&file.set, "set").map_err(|p| refused(vec![p]))?,
-        refinement: refinement(&file, &axes),
+        refinement: refinement(file, &axes),
         errors,
     };
     let variants = reader.all(&all)?;
     Ok(Study {
-        name: inputs.name.clone(),
-        scene: scene.name.clone(),
-        errors: reader.errors.iter().map(|e| e.0.clone()).collect(),
-        refinement: reader.refinement.clone(),
-        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        errors: reader.errors.into_iter().map(|e| e.0).collect(),
+        refinement: reader.refinement,
+        scene: scene.name,
         ladders: Vec::new(),
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        name: inputs.name,
+        file: inputs.file,
+        source: inputs.source,
         axes,
         variants,
-        file,
-        source,
     })
 }
 
 /// Axes that are gone along until they break.
-fn plan_ladders(inputs: &Inputs<'_>, file: StudyFile, source: Source) -> Result<Study, Refused> {
-    let (ladders, variants) = ladder::read(&file, &source, inputs)?;
+fn plan_ladders(inputs: Inputs<'_>) -> Result<Study, Refused> {
+    let (ladders, variants) = ladder::read(&inputs)?;
     let mut scenes: Vec<&str> = Vec::new();
     for ladder in &ladders {
-        if !scenes.contains(&ladder.scene.as_str()) {
-            scenes.push(&ladder.scene);
+        let scene = &ladder.frontier.scene;
+        if !scenes.contains(&scene.as_str()) {
+            scenes.push(scene);
         }
     }
     Ok(Study {
-        name: inputs.name.clone(),
-        scene: scenes.join(", "),
         errors: Vec::new(),
         refinement: None,
-        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        scene: scenes.join(", "),
         axes: ladder::columns(),
+        set: inputs.set.iter().map(|o| o.text.to_string()).collect(),
+        name: inputs.name,
+        file: inputs.file,
+        source: inputs.source,
         ladders,
         variants,
-        file,
-        source,
     })
 }
 
@@ -222,13 +220,4 @@ pub enum ReadError {
     /// The study has mistakes.
     #[error(transparent)]
     Refused(#[from] Refused),
-}
-
-/// The typed content of a study file.
-fn study_file(table: &Table) -> Result<StudyFile, Vec<SceneProblem>> {
-    match typed(table) {
-        Ok(file) => Ok(file),
-        Err(RegistryError::Parameters(problems)) => Err(problems),
-        Err(other) => Err(vec![SceneProblem::new("", other.to_string())]),
-    }
 }

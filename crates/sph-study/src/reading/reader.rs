@@ -16,11 +16,10 @@ use crate::{Mistake, Refused, SceneText, Set, StudyAxis, StudyFile, Variant};
 /// The key over which the order of convergence is computed, where a study names none.
 const REFINEMENT: &str = "numerics.spacing";
 
-/// Input of a study besides its file.
 pub(crate) struct Inputs<'a> {
-    /// Name of the study.
     pub name: String,
-    /// Finds a scene by its name.
+    pub file: StudyFile,
+    pub source: Source,
     pub find: &'a dyn Fn(&str) -> Result<SceneText, String>,
     /// Settings put on top of every variant from outside.
     pub set: &'a [Override],
@@ -28,19 +27,14 @@ pub(crate) struct Inputs<'a> {
     pub only: &'a [String],
 }
 
-/// Makes variants from combinations.
 pub(crate) struct Reader<'a> {
-    pub file: &'a StudyFile,
-    pub source: &'a Source,
     pub inputs: &'a Inputs<'a>,
     /// The scene of all places that have none of their own.
     pub scene: &'a SceneText,
     pub axes: &'a [StudyAxis],
-    /// Settings of every variant.
     pub common: Vec<Set>,
     /// References that the scene must have, with their places in the study file.
     pub errors: Vec<(String, String)>,
-    /// The key over which the order of convergence is computed.
     pub refinement: Option<String>,
 }
 
@@ -84,7 +78,7 @@ impl Reader<'_> {
             let Some(count) = times.remove(&diagnostic.to_string()) else {
                 continue;
             };
-            if count < variants && diagnostic.file != self.source.file {
+            if count < variants && diagnostic.file != self.inputs.source.file {
                 diagnostic.message = format!("variant `{name}`: {}", diagnostic.message);
             }
             told.push(mistake);
@@ -95,15 +89,10 @@ impl Reader<'_> {
     fn one(&self, combination: &Combination) -> Result<Variant, Vec<Mistake>> {
         let scene = self.scene(&combination.choices)?;
         let (overrides, given_by) = self.overrides(&scene, &combination.choices);
-        let place = |scene: &Source, found: &[_]| placed(self.source, &given_by, scene, found);
-        let SceneText {
-            text,
-            file,
-            allowed,
-            method,
-            ..
-        } = &*scene;
-        let read = method.read(Source::new(text, file, &overrides).allowing(allowed));
+        let place =
+            |scene: &Source, found: &[_]| placed(&self.inputs.source, &given_by, scene, found);
+        let text = Source::new(&scene.text, &scene.file, &overrides).allowing(&scene.allowed);
+        let read = scene.method.read(text);
         let subject = read.map_err(|(source, found)| place(&source, &found))?;
         let mut problems = self.missing_references(&*subject);
         let refinement = self.refinement.as_ref();
@@ -112,7 +101,7 @@ impl Reader<'_> {
             problems.push(SceneProblem::new("refinement", why.clone()));
         }
         if !problems.is_empty() {
-            return Err(Refused::in_study(self.source, &problems).mistakes);
+            return Err(Refused::in_study(&self.inputs.source, &problems).mistakes);
         }
         let scene = subject.source();
         let unreadable = |problem| place(scene, &scene.diagnose(&[problem]));
@@ -141,7 +130,7 @@ impl Reader<'_> {
             return Ok(Cow::Borrowed(self.scene));
         };
         let found = (self.inputs.find)(name).map(Cow::Owned);
-        found.map_err(|why| Refused::at(self.source, path, why).mistakes)
+        found.map_err(|why| Refused::at(&self.inputs.source, path, why).mistakes)
     }
 
     /// Settings put on the scene, in this order, with their places.
@@ -151,7 +140,7 @@ impl Reader<'_> {
         choices: &[usize],
     ) -> (Vec<Override>, Vec<Option<String>>) {
         let mut all: Vec<(Override, Option<String>)> = Vec::new();
-        if !self.file.keep_output {
+        if !self.inputs.file.keep_output {
             let quiet = scene.method.quiet().iter();
             let quiet = quiet.filter_map(|text| Override::parse(text).ok());
             all.extend(quiet.map(|o| (o, None)));

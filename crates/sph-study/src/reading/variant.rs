@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use sph_run::{Method, Subject};
 use toml::Table;
 
@@ -38,10 +39,8 @@ pub struct Variant {
 pub fn fingerprint(mut scene: Table, marks: &[(String, String)]) -> String {
     scene.remove("title");
     scene.remove("description");
-    let mut text = format!(
-        "sph {VERSION}\n{}",
-        toml::to_string(&scene).unwrap_or_default()
-    );
+    let scene = toml::to_string(&scene).unwrap_or_default();
+    let mut text = format!("sph {VERSION}\n{scene}");
     for (key, content) in marks {
         text.push_str(&format!("{key} {content}\n"));
     }
@@ -49,34 +48,48 @@ pub fn fingerprint(mut scene: Table, marks: &[(String, String)]) -> String {
 }
 
 /// An axis that is gone along until it breaks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Ladder {
-    /// Name in tables and folders.
-    pub name: String,
-    /// Title of the axis.
+    /// The axis as the results have it, before any run.
+    pub frontier: Frontier,
+    /// The last value that must survive.
+    pub must: Option<usize>,
+    /// True if variants after a red value are run all the same.
+    pub to_the_end: bool,
+}
+
+/// One axis, gone along with one combination of plugins.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Frontier {
+    pub axis: String,
     pub title: String,
-    /// Name of the scene.
+    /// Name of the combination; empty if the axis has none.
+    pub combination: String,
     pub scene: String,
     /// References in the report; the plot shows the first.
     pub errors: Vec<String>,
-    /// Names of the values, from harmless to absurd.
-    pub labels: Vec<String>,
-    /// The last value that must survive.
-    pub must: Option<usize>,
-    /// Bounds of green and yellow.
     pub judge: Bounds,
-    /// True if variants after a red value are run all the same.
-    pub to_the_end: bool,
+    /// Names of the variants, from harmless to absurd.
+    pub variants: Vec<String>,
+    pub values: Vec<String>,
+    /// The last value that must survive.
+    pub must: Option<String>,
+    /// The last green value before anything that is not green.
+    pub green_to: Option<String>,
+    /// The last value before the first red one.
+    pub holds_to: Option<String>,
+    /// The first red value, with the reason.
+    pub breaks_at: Option<[String; 2]>,
+    /// True if nothing is red up to the value that must survive; unknown while runs are missing.
+    pub met: Option<bool>,
 }
 
 /// The place of a variant on a ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rung {
-    /// Number of the ladder.
     pub ladder: usize,
     /// Number of the combination of plugins with which it is gone along.
     pub combination: usize,
-    /// Number of the value.
     pub value: usize,
 }
 

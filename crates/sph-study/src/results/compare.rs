@@ -12,39 +12,28 @@ use crate::Results;
 pub struct Comparison {
     /// Other differences: studies, machines, versions, threads.
     pub notes: Vec<String>,
-    /// Variants that both have.
     pub variants: Vec<Change>,
-    /// Variants of the first study only.
     pub only_in_first: Vec<String>,
-    /// Variants of the second study only.
     pub only_in_second: Vec<String>,
     /// Geometric mean of the ratios of wall seconds, second over first.
     pub wall_ratio: Option<f64>,
 }
 
-/// A variant in both studies.
 #[derive(Clone, Debug, Serialize)]
 pub struct Change {
-    /// Name.
     pub name: String,
-    /// The way it ended.
     pub status: [String; 2],
     /// Name of an error with its values and their ratio.
     pub errors: Vec<(String, Pair)>,
-    /// Wall seconds and their ratio.
     pub wall_seconds: Pair,
-    /// Steps and their ratio.
     pub steps: Pair,
 }
 
 /// Two numbers and the second over the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Pair {
-    /// In the first study.
     pub first: Option<f64>,
-    /// In the second study.
     pub second: Option<f64>,
-    /// Second over first.
     pub ratio: Option<f64>,
 }
 
@@ -117,7 +106,7 @@ pub fn compare(first: &Results, second: &Results) -> Comparison {
 
 fn notes(first: &Results, second: &Results) -> Vec<String> {
     let facts = |r: &Results| {
-        let origin = &r.origin;
+        let (origin, machine) = (&r.origin, "machine, so that times cannot be compared");
         let manner = if r.serial {
             "one by one"
         } else {
@@ -129,10 +118,7 @@ fn notes(first: &Results, second: &Results) -> Vec<String> {
             ("version", origin.version.clone()),
             ("commit", origin.commit.clone().unwrap_or("unknown".into())),
             ("built with", origin.built_with.clone()),
-            (
-                "machine, so that times cannot be compared",
-                origin.machine.to_string(),
-            ),
+            (machine, origin.machine.to_string()),
             ("threads", r.threads()),
             ("variants ran", manner.into()),
         ]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use sph_core::{comma_list, number};
 
-use crate::results::order::slope;
+use crate::results::variant_result::slope;
 use crate::{Cost, Results, Scaling, VariantResult};
 
 /// A name with its particles and seconds, by size.
@@ -22,10 +22,8 @@ pub struct Scale {
     pub fastest: Vec<FastestRange>,
 }
 
-/// The cost of a series against size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SeriesCost {
-    /// Name of the series.
     pub name: String,
     /// Particles and seconds, by size.
     pub points: Vec<[f64; 2]>,
@@ -33,12 +31,10 @@ pub struct SeriesCost {
     pub exponent: Option<f64>,
 }
 
-/// Sizes at which one competitor is the fastest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FastestRange {
     /// Labels on the axes that do not compete.
     pub among: String,
-    /// The fastest.
     pub name: String,
     /// Particles from and to which; between two sizes where their costs, as power laws, are the same.
     pub particles: [f64; 2],
@@ -54,8 +50,7 @@ impl Scale {
             let all: Vec<&VariantResult> = all.collect();
             let cost = |v: &&VariantResult| Some([v.size.particles as f64, v.cost(scaling.cost)?]);
             let points = all.iter().filter_map(cost);
-            let points = points.filter(|p| p.iter().all(|x| *x > 0.0));
-            let mut points: Vec<[f64; 2]> = points.collect();
+            let mut points: Vec<[f64; 2]> = points.filter(|p| p.iter().all(|x| *x > 0.0)).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             costs.push(SeriesCost::from_points(&one.name, points.clone()));
             if let (Some(between), Some(first)) = (&scaling.between, all.first()) {

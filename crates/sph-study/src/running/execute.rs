@@ -8,10 +8,8 @@ use sph_io::IoError;
 use crate::running::repeat;
 use crate::{Colour, Options, Record, Status, Study, Variant, Watcher, verdict};
 
-/// Results of running a study.
 #[derive(Debug)]
 pub struct Outcome {
-    /// One record per variant, in their order.
     pub records: Vec<Record>,
     /// True if it was stopped before all variants had run.
     pub stopped: bool,
@@ -112,7 +110,7 @@ pub fn to_run(study: &Study, options: &Options) -> Vec<bool> {
 fn breaks(study: &Study, variant: &Variant, record: &Record) -> bool {
     let ladder = variant.rung.map(|r| &study.ladders[r.ladder]);
     ladder.is_some_and(|ladder| {
-        let found = verdict(record, &ladder.judge);
+        let found = verdict(record, &ladder.frontier.judge);
         !ladder.to_the_end && found.is_some_and(|v| v.colour == Colour::Red)
     })
 }

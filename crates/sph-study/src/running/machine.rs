@@ -11,11 +11,9 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A computer, as far as run times depend on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
-    /// Model of the processor.
     pub cpu: String,
     /// Cores that this process may use.
     pub cores: usize,
-    /// Operating system and architecture.
     pub os: String,
 }
 
@@ -37,12 +35,10 @@ impl Machine {
 pub struct Origin {
     /// The machine.
     pub machine: Machine,
-    /// Version of the program.
-    pub version: String,
+    pub(crate) version: String,
     /// Commit of the program's repository, if it is known.
-    pub commit: Option<String>,
-    /// Compiler and libraries of the program.
-    pub built_with: String,
+    pub(crate) commit: Option<String>,
+    pub(crate) built_with: String,
 }
 
 impl Origin {
@@ -103,17 +99,14 @@ fn commit() -> Option<String> {
     let here = std::env::current_dir().ok();
     let mut folders = beside.into_iter().chain(here.as_deref());
     folders.find_map(|folder| {
-        let git = |words: &[&str]| output_of(Command::new("git").current_dir(folder).args(words));
-        let root = git(&["rev-parse", "--show-toplevel"])?;
+        let git = |words: &str| {
+            let words = words.split(' ');
+            output_of(Command::new("git").current_dir(folder).args(words))
+        };
+        let root = git("rev-parse --show-toplevel")?;
         let manifest = Path::new(&root).join("crates/sph-study/Cargo.toml");
-        let describe = [
-            "describe",
-            "--always",
-            "--dirty",
-            "--abbrev=12",
-            "--exclude=*",
-        ];
-        manifest.exists().then(|| git(&describe))?
+        let describe = "describe --always --dirty --abbrev=12 --exclude=*";
+        manifest.exists().then(|| git(describe))?
     })
 }
 

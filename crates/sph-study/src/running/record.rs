@@ -1,15 +1,16 @@
-//! The record of a finished variant.
+//! The record of a finished variant, and the cost of its steps and solves.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
+use sph_core::parameters;
 use sph_io::IoError;
 use sph_run::Trouble;
 
-use crate::running::cost::SolveSummaries;
-use crate::{Cost, Origin, SolveCost};
+use crate::Origin;
 
 /// Name of the record in a variant's folder.
 const FILE: &str = "record.json";
@@ -55,46 +56,38 @@ impl Status {
 pub struct Record {
     /// The way it ended.
     pub status: Status,
-    /// Data on which the result depends.
-    pub fingerprint: String,
+    pub(crate) fingerprint: String,
     /// The error, or the exceeded limit.
     pub reason: Option<String>,
     /// Time limit in force, s.
-    pub time_limit: Option<f64>,
-    /// Errors against the scene's references.
-    pub errors: BTreeMap<String, Error>,
+    pub(crate) time_limit: Option<f64>,
+    pub(crate) errors: BTreeMap<String, Error>,
     /// Wall-clock seconds of every repetition.
-    pub wall_seconds: Vec<f64>,
+    pub(crate) wall_seconds: Vec<f64>,
     /// Wall-clock seconds of the repetition under way, s.
-    pub spent: f64,
-    /// Size of the last repetition.
+    pub(crate) spent: f64,
     #[serde(flatten)]
-    pub size: RunSize,
+    pub(crate) size: RunSize,
     /// Share of the steps limited by each bound.
-    pub dt_limiters: BTreeMap<String, f64>,
-    /// Its soundness.
-    pub health: Health,
+    pub(crate) dt_limiters: BTreeMap<String, f64>,
+    pub(crate) health: Health,
     /// Effort of implicit solves in the last repetition.
-    pub solves: Option<SolveCost>,
+    pub(crate) solves: Option<SolveCost>,
     /// Wall-clock seconds per stage, of the fastest repetition.
-    pub wall_seconds_by_stage: BTreeMap<String, f64>,
-    /// Machine and program of the run.
+    pub(crate) wall_seconds_by_stage: BTreeMap<String, f64>,
     #[serde(flatten)]
-    pub origin: Origin,
+    pub(crate) origin: Origin,
 }
 
 /// Size of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RunSize {
-    /// Threads.
     pub threads: usize,
     /// Free particles, or grains.
     #[serde(alias = "grains")]
     pub particles: usize,
-    /// Steps taken.
     pub steps: u64,
-    /// Steps that were rolled back.
     pub steps_rolled_back: u64,
     /// Simulated time reached, s.
     pub simulated_seconds: f64,
@@ -135,7 +128,6 @@ impl Health {
 pub struct Error {
     /// The number; null if nothing could be compared.
     pub value: Option<f64>,
-    /// Name of the norm.
     pub norm: String,
     /// Unit, "1" for relative norms.
     #[serde(default = "one")]
@@ -149,55 +141,32 @@ fn one() -> String {
     "1".into()
 }
 
-/// The part of a run's summary that a study reads, of any method.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct RunSummary {
-    wall_seconds: f64,
-    #[serde(flatten)]
-    size: RunSize,
-    dt_limiters: BTreeMap<String, f64>,
-    implicit_viscosity: Option<SolveSummaries>,
-    errors: BTreeMap<String, Error>,
-    wall_seconds_by_stage: BTreeMap<String, f64>,
-    escaped: usize,
-    density_range: [Option<f64>; 2],
-    drift: DriftSummary,
-    mach: Option<f64>,
-    nearest: [Option<f64>; 2],
-    first_trouble: Option<Trouble>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct DriftSummary {
-    energy: Option<f64>,
-    energy_rise: Option<f64>,
-    momentum: Option<f64>,
+/// A part of a run's summary, which a method may lack.
+fn part<T: DeserializeOwned + Default>(summary: &Json, key: &str) -> T {
+    T::deserialize(&summary[key]).unwrap_or_default()
 }
 
 impl Record {
     /// Results of a run, from its summary.
-    pub fn from_summary(summary: Json) -> Self {
-        let told: RunSummary = serde_json::from_value(summary).unwrap_or_default();
-        let both = |[low, high]: [Option<f64>; 2]| Some([low?, high?]);
+    pub fn from_summary(summary: &Json) -> Self {
+        let drift = &summary["drift"];
         Record {
-            spent: told.wall_seconds,
-            size: told.size,
-            dt_limiters: told.dt_limiters,
-            solves: told.implicit_viscosity.map(SolveCost::from_solves),
+            spent: part(summary, "wall_seconds"),
+            size: RunSize::deserialize(summary).unwrap_or_default(),
+            dt_limiters: part(summary, "dt_limiters"),
+            solves: SolveCost::from_summary(&summary["implicit_viscosity"]),
             health: Health {
-                escaped: told.escaped,
-                density_range: both(told.density_range),
-                energy_drift: told.drift.energy,
-                energy_rise: told.drift.energy_rise,
-                momentum_drift: told.drift.momentum,
-                mach: told.mach,
-                nearest: both(told.nearest),
-                first_trouble: told.first_trouble,
+                escaped: part(summary, "escaped"),
+                density_range: part(summary, "density_range"),
+                energy_drift: part(drift, "energy"),
+                energy_rise: part(drift, "energy_rise"),
+                momentum_drift: part(drift, "momentum"),
+                mach: part(summary, "mach"),
+                nearest: part(summary, "nearest"),
+                first_trouble: part(summary, "first_trouble"),
             },
-            errors: told.errors,
-            wall_seconds_by_stage: told.wall_seconds_by_stage,
+            errors: part(summary, "errors"),
+            wall_seconds_by_stage: part(summary, "wall_seconds_by_stage"),
             ..Record::default()
         }
     }
@@ -206,8 +175,7 @@ impl Record {
     pub fn load(folder: &Path) -> Option<Self> {
         let file = folder.join(FILE);
         sph_io::readable(&file, LONGEST).ok()?;
-        let text = std::fs::read_to_string(file).ok()?;
-        serde_json::from_str(&text).ok()
+        serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()
     }
 
     /// Writes the record, all or nothing.
@@ -289,6 +257,71 @@ impl Record {
             Status::Done => self.errors.get(name)?.value,
             _ => None,
         }
+    }
+}
+
+/// A cost against the number of particles.
+#[parameters]
+pub struct Scaling {
+    /// Unit of the cost.
+    #[parameter(default)]
+    pub cost: Cost,
+    /// Name of the axis whose entries compete: the fastest at each size, and the sizes at which another takes over.
+    #[parameter(default)]
+    pub between: Option<String>,
+}
+
+/// Unit of the cost of a run.
+#[parameters]
+pub enum Cost {
+    /// A step, everything included.
+    #[default]
+    Step,
+    /// A solve of the implicit viscosity's system for all components.
+    Solve,
+}
+
+impl Cost {
+    pub fn name(self) -> &'static str {
+        match self {
+            Cost::Step => "time per step",
+            Cost::Solve => "time per solve",
+        }
+    }
+
+    /// Seconds of one, of a run that took `wall` seconds for `steps`; nothing if there was none.
+    pub fn seconds(self, wall: Option<f64>, steps: u64, solves: Option<&SolveCost>) -> Option<f64> {
+        let per = |seconds: f64, n: u64| (n > 0).then(|| seconds / n as f64);
+        match self {
+            Cost::Step => per(wall?, steps),
+            Cost::Solve => solves.and_then(|s| per(s.seconds, s.count)),
+        }
+    }
+}
+
+/// Effort of the implicit solves of a variant.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SolveCost {
+    pub count: u64,
+    /// Wall-clock seconds of all.
+    pub seconds: f64,
+    /// Mean number of iterations.
+    pub iterations: f64,
+    /// Most bytes of a matrix and of the solver's memory for it.
+    pub bytes: usize,
+}
+
+impl SolveCost {
+    /// Of their entry in the summary of a run, if it has one.
+    pub(crate) fn from_summary(solves: &Json) -> Option<Self> {
+        let counts = solves["by_method"].as_object()?.values();
+        Some(SolveCost {
+            count: counts.filter_map(Json::as_u64).sum(),
+            seconds: solves["wall_seconds"].as_f64()?,
+            iterations: solves["mean_iterations"].as_f64()?,
+            bytes: solves["most_bytes"].as_u64()? as usize,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! One variant: its repetitions, and the end of its folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use sph_io::IoError;
@@ -8,7 +8,51 @@ use sph_run::{
     BAD_STATE, CHECKPOINT, Command, Ended, Identity, Observer, Progress, RunOptions, Start,
 };
 
-use crate::{Options, Record, Status, Study, Variant};
+use crate::{Origin, Record, Status, Study, Variant};
+
+/// Options of a study.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Options {
+    /// Folder of all its files.
+    pub out: PathBuf,
+    /// Threads; `None` for all cores.
+    pub threads: Option<usize>,
+    /// True if finished variants are run again.
+    pub fresh: bool,
+    /// Machine and program of the variants, for the records.
+    pub origin: Origin,
+}
+
+impl Options {
+    /// On all cores; finished variants stay.
+    pub fn new(out: impl Into<PathBuf>, origin: Origin) -> Self {
+        Options {
+            out: out.into(),
+            threads: None,
+            fresh: false,
+            origin,
+        }
+    }
+
+    /// Folder of a variant.
+    pub fn folder(&self, variant: &Variant) -> PathBuf {
+        self.out.join("variants").join(&variant.name)
+    }
+
+    /// Earlier results of a variant.
+    pub fn known(&self, variant: &Variant) -> Option<Record> {
+        let record = Record::load(&self.folder(variant));
+        let forgotten = self.fresh && variant.wanted;
+        record.filter(|r| !forgotten && r.fingerprint == variant.fingerprint)
+    }
+
+    /// Threads in force.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(cores)
+    }
+}
 
 /// A watcher of a study; variants may call it from several threads.
 pub trait Watcher: Sync {
@@ -26,10 +70,8 @@ pub trait Watcher: Sync {
     }
 }
 
-/// A silent watcher.
 impl Watcher for () {}
 
-/// A variant to be run.
 pub(crate) struct Job<'a> {
     pub study: &'a Study,
     pub variant: &'a Variant,
@@ -39,7 +81,6 @@ pub(crate) struct Job<'a> {
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// The reason of a stop.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Asked,
@@ -130,19 +171,19 @@ impl Job<'_> {
         let cause = observer.cause;
         match ended {
             Ended::Done(summary) => {
-                record.add(&Record::from_summary(summary));
+                record.add(&Record::from_summary(&summary));
                 if record.wall_seconds.len() >= self.study.file.repetitions {
                     record.status = Status::Done;
                 }
                 return Ok(Status::Done);
             }
             Ended::Stopped(summary) => {
-                let run = Record::from_summary(summary);
+                let run = Record::from_summary(&summary);
                 record.look(&run);
                 (record.status, record.reason) = self.stopped(run.size.simulated_seconds, cause);
             }
             Ended::Failed(summary, reason) => {
-                record.look(&Record::from_summary(summary));
+                record.look(&Record::from_summary(&summary));
                 record.size.threads = self.threads;
                 record.status = Status::Failed;
                 record.reason = Some(reason);

@@ -20,7 +20,6 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// As it stands in tables.
     pub fn name(self) -> &'static str {
         match self {
             Colour::Green => "green",
@@ -33,13 +32,11 @@ impl Colour {
 /// A colour and the reason for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The colour.
     pub colour: Colour,
     /// Reasons for less than green; empty if there are none.
     pub why: String,
 }
 
-/// A number by which a run is judged.
 type HealthNumber = fn(&Health) -> Option<f64>;
 
 /// Quantities of every run for a verdict, besides the scene's references.
@@ -64,9 +61,8 @@ pub const QUANTITIES: [(&str, HealthNumber); 7] = [
 fn quantities(record: &Record) -> BTreeMap<&str, f64> {
     let errors = record.errors.iter();
     let errors = errors.map(|(name, error)| (name.as_str(), error.value));
-    let own = QUANTITIES.map(|(name, of)| (name, of(&record.health)));
     let known = errors
-        .chain(own)
+        .chain(QUANTITIES.map(|(name, of)| (name, of(&record.health))))
         .filter_map(|(name, value)| Some((name, value?)));
     known.collect()
 }
@@ -142,22 +138,13 @@ mod tests {
         };
         let fine = bounds([0.1, 0.2], [0.5, 1.0]);
         let tight = bounds([0.1, 0.2], [0.1, 0.2]);
+        let [again, behind] = ["2 steps were tried again", "1 particles are behind a wall"];
         for (record, bounds, colour, why) in [
             (record(0.05, 0, 0), &fine, Colour::Green, ""),
             (record(0.15, 0, 0), &fine, Colour::Yellow, "e 0.15 > 0.1"),
             (record(f64::NAN, 0, 0), &fine, Colour::Red, "e NaN > 0.2"),
-            (
-                record(0.05, 2, 0),
-                &fine,
-                Colour::Yellow,
-                "2 steps were tried again",
-            ),
-            (
-                record(0.05, 0, 1),
-                &fine,
-                Colour::Red,
-                "1 particles are behind a wall",
-            ),
+            (record(0.05, 2, 0), &fine, Colour::Yellow, again),
+            (record(0.05, 0, 1), &fine, Colour::Red, behind),
             (record(0.15, 0, 0), &tight, Colour::Red, "density 0.3 > 0.2"),
         ] {
             let found = verdict(&record, bounds).unwrap();

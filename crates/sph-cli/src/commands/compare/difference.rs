@@ -1,11 +1,98 @@
-//! Differences of two tables.
+//! Files of results as named columns whose rows have keys, and differences of two of them.
 
 use std::collections::HashMap;
 
 use serde::Serialize;
 use sph_core::{comma_list, number, unit_suffix};
+use sph_io::{Checkpoint, Location, Piece};
 
-use super::tables::{Column, Table};
+/// Columns whose rows are matched by a key.
+#[derive(Default)]
+pub struct Table {
+    pub columns: Vec<Column>,
+    /// By row: the identity of its particle, or the bits of its time.
+    pub keys: Vec<u64>,
+    /// By row: the place of its particle, m.
+    pub places: Vec<Vec<f64>>,
+    pub time: Option<f64>,
+    pub over_time: bool,
+}
+
+pub struct Column {
+    pub name: String,
+    /// SI unit, empty if none is known.
+    pub unit: String,
+    pub components: usize,
+    /// Row after row.
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    fn new(name: String, unit: String, components: usize, values: Vec<f64>) -> Self {
+        Column {
+            name,
+            unit,
+            components,
+            values,
+        }
+    }
+}
+
+impl Table {
+    pub fn of_series(table: sph_io::Table) -> Self {
+        let times = table.column("time").unwrap_or_default();
+        let keys = times.iter().map(|t| t.to_bits()).collect();
+        let columns = table.columns.into_iter();
+        let columns = columns.map(|c| Column::new(c.name, c.unit, 1, c.values));
+        Table {
+            columns: columns.collect(),
+            keys,
+            over_time: true,
+            ..Table::default()
+        }
+    }
+
+    /// All columns of the particles of a checkpoint; those of walls and lists have other lengths, and no keys.
+    pub fn of_checkpoint(checkpoint: Checkpoint) -> Self {
+        let columns = checkpoint.columns.into_iter();
+        let columns =
+            columns.map(|c| Column::new(c.name, String::new(), c.components, c.data.reals()));
+        Table::keyed(columns.collect(), None)
+    }
+
+    /// The columns at the points of a frame.
+    pub fn of_piece((piece, time): (Piece<'static>, f64)) -> Self {
+        let places = piece.points.as_flattened().to_vec();
+        let position = Column::new("position".into(), "m".into(), 3, places);
+        let fields = piece.fields.into_iter();
+        let at_points = fields.filter(|f| f.location == Location::Point);
+        let named = |name: std::borrow::Cow<str>| name.into_owned();
+        let columns = at_points
+            .map(|f| Column::new(named(f.name), named(f.unit), f.components, f.data.reals()));
+        let columns = std::iter::once(position).chain(columns).collect();
+        Table::keyed(columns, Some(time))
+    }
+
+    /// Rows by the identity of their particles, or by their numbers where they have none.
+    fn keyed(columns: Vec<Column>, time: Option<f64>) -> Self {
+        let column = |name: &str| columns.iter().find(|c| c.name == name);
+        let places: Vec<Vec<f64>> = column("position").map_or(Vec::new(), |c| {
+            let rows = c.values.chunks(c.components.max(1));
+            rows.map(<[f64]>::to_vec).collect()
+        });
+        let keys = match column("identity") {
+            Some(identity) => identity.values.iter().map(|x| *x as u64).collect(),
+            None => (0..places.len() as u64).collect(),
+        };
+        Table {
+            columns,
+            keys,
+            places,
+            time,
+            over_time: false,
+        }
+    }
+}
 
 /// Difference of a column; numbers that are not finite are null in JSON.
 #[derive(Default, Serialize)]
@@ -13,7 +100,6 @@ pub struct Difference {
     file: String,
     column: String,
     unit: String,
-    /// True if all its bits are the same.
     pub same: bool,
     /// The largest |a − b|; infinite where one of them is no number.
     largest: f64,
@@ -26,7 +112,6 @@ pub struct Difference {
     place: DifferencePlace,
 }
 
-/// Place of a difference.
 #[derive(Clone, Default, Serialize)]
 struct DifferencePlace {
     time: Option<f64>,
@@ -41,8 +126,8 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     let mut remarks = Vec::new();
     let rows: HashMap<u64, usize> = b.keys.iter().copied().zip(0..).collect();
     let keys = a.keys.iter().enumerate();
-    let pairs = keys.filter_map(|(k, key)| Some((k, *rows.get(key)?)));
-    let pairs: Vec<(usize, usize)> = pairs.collect();
+    let pairs = keys.filter_map(|(k, key)| Some([k, *rows.get(key)?]));
+    let pairs: Vec<[usize; 2]> = pairs.collect();
     let all = a.keys.len() + b.keys.len();
     let lone = all - 2 * pairs.len();
     if lone > 0 {
@@ -69,9 +154,8 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
             true => found.push(difference(file, column, other, &pairs, a)),
             // Walls and lists: number by number, or not at all.
             false if column.values.len() == other.values.len() => {
-                let rows: Vec<_> = (0..column.values.len() / per).map(|k| (k, k)).collect();
-                let alone = Table::default();
-                found.push(difference(file, column, other, &rows, &alone));
+                let rows: Vec<_> = (0..column.values.len() / per).map(|k| [k; 2]).collect();
+                found.push(difference(file, column, other, &rows, &Table::default()));
             }
             false => remarks.push(format!(
                 "{file}: `{}` has {} numbers and {}",
@@ -84,13 +168,7 @@ pub fn differences(file: &str, a: &Table, b: &Table) -> (Vec<Difference>, Vec<St
     (found, remarks)
 }
 
-fn difference(
-    file: &str,
-    a: &Column,
-    b: &Column,
-    pairs: &[(usize, usize)],
-    table: &Table,
-) -> Difference {
+fn difference(file: &str, a: &Column, b: &Column, pairs: &[[usize; 2]], of: &Table) -> Difference {
     let per = a.components.max(1);
     let mut found = Difference {
         file: file.to_string(),
@@ -101,7 +179,7 @@ fn difference(
         ..Difference::default()
     };
     let mut range: f64 = 0.0;
-    for &(row, twin) in pairs {
+    for &[row, twin] in pairs {
         for k in 0..per {
             let (x, y) = (a.values[per * row + k], b.values[per * twin + k]);
             if x.is_finite() {
@@ -117,16 +195,16 @@ fn difference(
             };
             if apart > found.largest {
                 (found.largest, found.first, found.second) = (apart, x, y);
-                let key = table.keys.get(row).copied();
-                let (time, particle) = match table.over_time {
+                let key = of.keys.get(row).copied();
+                let (time, particle) = match of.over_time {
                     true => (key.map(f64::from_bits), None),
-                    false => (table.time, Some(key.unwrap_or(row as u64))),
+                    false => (of.time, Some(key.unwrap_or(row as u64))),
                 };
                 found.place = DifferencePlace {
                     time,
                     particle,
                     component: (per > 1).then_some(k),
-                    position: table.places.get(row).cloned().unwrap_or_default(),
+                    position: of.places.get(row).cloned().unwrap_or_default(),
                 };
             }
         }
@@ -137,7 +215,6 @@ fn difference(
 }
 
 impl Difference {
-    /// True if it is of the same column of the same file.
     pub fn is_of(&self, other: &Difference) -> bool {
         self.file == other.file && self.column == other.column
     }
@@ -151,7 +228,6 @@ impl Difference {
         self.same = same;
     }
 
-    /// A row of the table for people.
     pub fn row(&self) -> Vec<String> {
         let unit = unit_suffix(&self.unit);
         vec![

@@ -8,15 +8,13 @@ use toml::{Table, Value};
 use crate::scene_file::overrides;
 use crate::terminal::Trouble;
 
-/// A law to be sheared.
 pub struct LawSample {
     /// Name, and its difference from its neighbours.
     pub label: String,
     pub law: Box<dyn Rheology>,
 }
 
-/// A law for every name and every value of `vary`, a `KEY=[…]`. With several names, keys start
-/// with a name.
+/// A law for every name and every value of `vary`, a `KEY=[…]`. With several names, keys start with a name.
 pub fn all(
     plugins: &[PluginInfo],
     set: &[String],
@@ -89,8 +87,7 @@ fn addressed(plugins: &[PluginInfo], set: &Override) -> Result<(usize, Override)
     let told = |why: String| format!("{}: {why}", &set.text);
     let names = || plugins.iter().map(|p| p.name);
     let (first, rest) = set.path.split_once('.').unwrap_or((&set.path, ""));
-    let found = names().position(|name| name == first);
-    let number = found.ok_or_else(|| {
+    let number = names().position(|name| name == first).ok_or_else(|| {
         let (near, known) = (suggestion(first, names()), comma_list(names()));
         told(format!("`{first}` is none of the laws to be drawn{near} (they are {known}; write LAW.KEY=VALUE)"))
     })?;

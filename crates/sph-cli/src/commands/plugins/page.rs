@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 use sph_core::{Parameter, PluginInfo, PluginKind, comma_list, parameters, some_unit};
 
-use super::choices::choices_of;
+use super::snippet::choices_of;
 use super::{KERNELS, LAWS, dimensions, required};
 use crate::terminal::paragraph;
 
@@ -22,12 +22,10 @@ mover rigid-body floating-box.png A floating box
 open-boundary velocity-inlet channel-open.png A channel between two open faces
 smoother delta-sph granular-pile-lajeunesse.png A pile of beads at rest
 walls usaw gamma-gear.png γ around a gear";
-/// Longest line.
 const LONGEST: usize = 120;
 /// Stands for a space at which no line ends.
 const GLUE: char = '\0';
 
-/// A page of kinds.
 pub fn markdown(kinds: &[&PluginKind]) -> String {
     let mut page = String::from(
         "# Plugins\n\nAll that a scene may name. This page is what `sph plugins --markdown` prints; a test holds it to that.\n\
@@ -63,7 +61,6 @@ fn one(kind: &str, plugin: &PluginInfo) -> String {
     text
 }
 
-/// A picture of a plugin, where there is one.
 fn picture(kind: &str, name: &str) -> Option<String> {
     if let Some((_, first, seen)) = DRAWN.iter().find(|drawn| drawn.0 == kind) {
         return Some(format!("![`{name}`, {seen}](images/{first}-{name}.svg)"));
@@ -74,7 +71,6 @@ fn picture(kind: &str, name: &str) -> Option<String> {
     Some(format!("![{seen}](images/{file})"))
 }
 
-/// A parameter: name, unit, default, meaning.
 fn parameter(parameter: &Parameter, schema: &Json) -> String {
     let Parameter { name, source, .. } = parameter;
     let unit = some_unit(&parameter.unit).map_or(String::new(), |unit| format!("{unit}, "));
@@ -117,7 +113,6 @@ fn wrapped(text: &str, indent: usize) -> String {
     lines.trim().replace(GLUE, " ")
 }
 
-/// An item of a list.
 fn item(text: &str) -> String {
     format!("* {}\n", wrapped(text, 2))
 }

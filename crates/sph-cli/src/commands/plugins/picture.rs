@@ -1,9 +1,10 @@
-//! `sph plugins rheology NAME… --picture FILE`: laws, sheared alone and drawn.
+//! `sph plugins KIND NAME… --picture FILE`: laws, sheared alone, and kernels with their slopes.
 
 use std::path::Path;
 
 use sph_core::{PluginInfo, number};
 use sph_io::{Panels, Plot, Series};
+use sph_solver::kernels::{self, Kernel};
 use sph_solver::rheometer::{self, Rheology};
 
 use super::law_sample::{self, LawSample};
@@ -19,7 +20,6 @@ const RATES: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
 const PRESSURE: f64 = 1000.0;
 /// Strain up to which laws are tried that do not yield before.
 const FAR: f64 = 2.0;
-/// Points of a curve.
 const POINTS: usize = 200;
 /// Most curves that can be distinguished.
 const MOST: usize = 12;
@@ -31,31 +31,25 @@ struct Curve<'s> {
     pressure: f64,
 }
 
-/// Draws the laws into the file that the arguments name.
-pub fn draw(
-    arguments: &PluginArguments,
-    plugins: &[PluginInfo],
-    file: &Path,
-) -> Result<(), Trouble> {
+pub fn draw_laws(asked: &PluginArguments, laws: &[PluginInfo], file: &Path) -> Result<(), Trouble> {
     picture("picture", file, &["svg", "png"])?;
-    let samples = law_sample::all(plugins, &arguments.set, arguments.vary.as_deref())?;
-    let curves = curves(&samples, &numbers("pressure", &arguments.pressure, "Pa")?)?;
+    let samples = law_sample::all(laws, &asked.set, asked.vary.as_deref())?;
+    let curves = curves(&samples, &numbers("pressure", &asked.pressure, "Pa")?)?;
     let elastic = curves.iter().filter(|c| c.law.elastic().is_some()).count();
-    let rates = rates(&arguments.strain_rates)?;
+    let rates = rates(&asked.strain_rates)?;
     let panels = match elastic {
         0 => flow(&curves, &rates)?,
-        all if all == curves.len() => from_rest(&curves, &rates, strain(arguments)?)?,
+        all if all == curves.len() => from_rest(&curves, &rates, strain(asked)?)?,
         _ => {
-            let why =
-                "laws with and without an elastic part have no common picture: draw them apart";
-            return Err(Trouble::usage(why));
+            return Err(Trouble::usage(
+                "laws with and without an elastic part have no common picture: draw them apart",
+            ));
         }
     };
     save(&panels, file)
 }
 
-/// Writes a picture and prints its name.
-pub fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
+fn save(panels: &Panels, file: &Path) -> Result<(), Trouble> {
     picture("picture", file, &["svg", "png"])?;
     panels.save(file).map_err(|e| e.to_string())?;
     console::out(&format!("wrote {}\n", file.display()));
@@ -81,7 +75,6 @@ fn curves<'s>(samples: &'s [LawSample], pressures: &[f64]) -> Result<Vec<Curve<'
     Ok(curves)
 }
 
-/// The given numbers, or others where there are none.
 fn or_else<'n>(given: &'n [f64], others: &'n [f64]) -> &'n [f64] {
     if given.is_empty() { others } else { given }
 }
@@ -113,12 +106,7 @@ fn flow(curves: &[Curve], rates: &[f64]) -> Result<Panels, Trouble> {
         all.map(|c| Series::line(&c.label, of(c))).collect()
     };
     Ok(Panels(vec![
-        Plot {
-            x_label: "strain rate [1/s]".into(),
-            y_label: "shear stress [Pa]".into(),
-            series: series(&stress),
-            ..Plot::default()
-        },
+        plot("strain rate [1/s]", "shear stress [Pa]", series(&stress)),
         viscosities(series(&|c| viscosity(c, &fine))),
     ]))
 }
@@ -144,12 +132,7 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
             sheared.push(Series::line(label, points.step_by(10).collect()));
         }
     }
-    let mut panels = vec![Plot {
-        x_label: "shear strain [1]".into(),
-        y_label: "shear stress [Pa]".into(),
-        series: sheared,
-        ..Plot::default()
-    }];
+    let mut panels = vec![plot("shear strain [1]", "shear stress [Pa]", sheared)];
     let widened = |[a, b]: [f64; 2], r: &f64| [r.min(a), r.max(b)];
     let [low, high] = rates.iter().fold([f64::INFINITY, 0.0], widened);
     let fine = spread(low / 10.0, high * 10.0, POINTS);
@@ -164,13 +147,18 @@ fn from_rest(curves: &[Curve], rates: &[f64], strain: Option<f64>) -> Result<Pan
     Ok(Panels(panels))
 }
 
-/// Viscosities over the strain rate.
 fn viscosities(series: Vec<Series>) -> Plot {
     Plot {
-        x_label: "strain rate [1/s]".into(),
-        y_label: "viscosity [Pa s]".into(),
         log_x: true,
         log_y: true,
+        ..plot("strain rate [1/s]", "viscosity [Pa s]", series)
+    }
+}
+
+fn plot(x_label: &str, y_label: &str, series: Vec<Series>) -> Plot {
+    Plot {
+        x_label: x_label.into(),
+        y_label: y_label.into(),
         series,
         ..Plot::default()
     }
@@ -231,4 +219,45 @@ fn strain(arguments: &PluginArguments) -> Result<Option<f64>, Trouble> {
 fn numbers(option: &str, given: &[String], unit: &str) -> Result<Vec<f64>, Trouble> {
     let each = given.iter().map(|text| quantity(option, text, unit));
     each.collect()
+}
+
+/// The pictures are of the kernels of the plane.
+const DIMENSION: usize = 2;
+
+/// Draws w h² and −w' h³ over r/h in two dimensions.
+pub fn draw_kernels(
+    arguments: &PluginArguments,
+    plugins: &[PluginInfo],
+    file: &Path,
+) -> Result<(), Trouble> {
+    let of_laws = [
+        ("--set", arguments.set.is_empty()),
+        ("--vary", arguments.vary.is_none()),
+        ("--pressure", arguments.pressure.is_empty()),
+        ("--strain-rates", arguments.strain_rates.is_empty()),
+        ("--strain", arguments.strain.is_none()),
+    ];
+    if let Some((option, _)) = of_laws.iter().find(|(_, left_out)| !left_out) {
+        return Err(format!("{option} is for laws, not kernels").into());
+    }
+    let kernels = plugins.iter().map(|p| kernels::kernel(p.name));
+    let kernels = kernels.collect::<Result<Vec<_>, _>>();
+    save(&panels(&kernels.map_err(|e| e.to_string())?), file)
+}
+
+fn panels(kernels: &[Box<dyn Kernel>]) -> Panels {
+    let panel = |label: &str, of: &dyn Fn(&dyn Kernel, f64) -> f64| {
+        let curves = kernels.iter().map(|kernel| {
+            let along = (0..=POINTS).map(|k| kernel.support() * k as f64 / POINTS as f64);
+            let points = along.map(|q| [q, of(&**kernel, q)]);
+            Series::line(kernel.name(), points.collect())
+        });
+        plot("r/h [1]", label, curves.collect())
+    };
+    Panels(vec![
+        panel("w h² [1]", &|k, q| k.normalisation(DIMENSION) * k.value(q)),
+        panel("−∂w/∂r h³ [1]", &|k, q| {
+            -k.normalisation(DIMENSION) * k.derivative(q)
+        }),
+    ])
 }

@@ -1,14 +1,62 @@
-//! docs/gallery.md.
+//! Descriptions of the shipped scenes from docs/gallery.toml (theme, subject, error and run time of each), and their page.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
 use sph_core::comma_list;
 
-use crate::gallery::{Entry, Gallery};
+use crate::shipped;
 use crate::terminal::paragraph;
 
-/// Longest line.
+/// The file as it was when the program was built.
+pub static GALLERY: LazyLock<Gallery> = LazyLock::new(|| {
+    toml::from_str(shipped::GALLERY)
+        .expect("docs/gallery.toml is read by every test of `sph scenes`")
+});
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gallery {
+    /// Machine and method of the run times.
+    pub times: String,
+    /// The scenes to begin with, and why.
+    pub start: Vec<[String; 2]>,
+    pub theme: Vec<Theme>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Theme {
+    pub title: String,
+    /// Markdown under the heading.
+    pub text: Option<String>,
+    pub entry: Vec<Entry>,
+}
+
+/// One scene, or some that differ in a number.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Entry {
+    /// Run time by name.
+    pub scenes: BTreeMap<String, String>,
+    pub shows: String,
+    /// References and errors, Markdown.
+    pub measured: Option<String>,
+    /// The moment of the picture, and its differences from the shipped scene.
+    pub picture: String,
+}
+
+impl Gallery {
+    pub fn find(&self, name: &str) -> Option<(&Theme, &Entry)> {
+        let all = self.theme.iter();
+        let mut all = all.flat_map(|theme| theme.entry.iter().map(move |entry| (theme, entry)));
+        all.find(|(_, entry)| entry.scenes.contains_key(name))
+    }
+}
+
 const WIDTH: usize = 120;
 
-/// The page.
 pub fn markdown(gallery: &Gallery) -> String {
     let about = format!(
         "`sph scenes` lists the scenes, `sph run NAME` runs one, prints its errors and writes them to `summary.json`. {} \
@@ -52,7 +100,6 @@ fn of_entry(entry: &Entry) -> String {
     ))
 }
 
-/// An item of a list, broken between words.
 fn item(text: &str) -> String {
     paragraph(2, WIDTH, text).replacen("  * ", "* ", 1)
 }
