@@ -93,8 +93,8 @@ fn known(error: &RunError) -> Json {
         Some(summary) => serde_json::to_value(summary).unwrap_or(Json::Null),
         None => json!({ "first_trouble": failure.first }),
     };
-    known["steps"] = failure.step.into();
-    known["simulated_seconds"] = failure.time.into();
+    known["steps"] = failure.findings.cause.step.into();
+    known["simulated_seconds"] = failure.findings.cause.time.into();
     known
 }
 

@@ -12,12 +12,8 @@ use crate::{Findings, Summary};
 
 /// A run that stopped before its end.
 #[derive(Debug, Error)]
-#[error("the run failed at t = {time:.6} s, step {step}: {cause}")]
+#[error("the run failed at t = {:.6} s, step {}: {cause}", .findings.cause.time, .findings.cause.step)]
 pub struct Failure {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Step.
-    pub step: u64,
     /// The error and its place.
     pub cause: StepError,
     /// The first step that failed, which a shorter one may have got over for a while.

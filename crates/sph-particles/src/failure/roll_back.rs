@@ -34,7 +34,7 @@ impl<const D: usize> Running<'_, D> {
         self.departure.failed(&cause);
         let hopeless = self.leak_at(&cause).is_some();
         let left = self.counters.retries < self.scene.run.retries;
-        let Some(kept) = self.good.state().filter(|_| left && !hopeless) else {
+        let Some(kept) = self.good.as_ref().filter(|_| left && !hopeless) else {
             return Err(self.failed(cause));
         };
         self.counters.retries += 1;
@@ -82,8 +82,6 @@ impl<const D: usize> Running<'_, D> {
         RunError::Failed(Box::new(Failure {
             first: self.counters.first_trouble.clone().unwrap_or_default(),
             summary: None,
-            time,
-            step,
             findings: Findings {
                 cause: trouble(&cause, time, step),
                 retries: self.counters.retries,
@@ -169,7 +167,7 @@ impl<const D: usize> Running<'_, D> {
     fn place(&self, number: u32) -> Option<Vect<D>> {
         let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[place_of(flow, number)?];
-        let before = self.good.state().and_then(|s| s.position_of(number));
+        let before = self.good.as_ref().and_then(|s| s.position_of(number));
         // Places that are not finite are left out.
         let shown = [Some(now), before].into_iter().flatten();
         let mut shown = shown.filter(|x| x.iter().all(|x| x.is_finite()));
@@ -179,7 +177,7 @@ impl<const D: usize> Running<'_, D> {
 
     /// Back to the last good state, which becomes the checkpoint; with the terms that acted on the particle there.
     fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &RunCounters) {
-        let Some(snapshot) = self.good.state() else {
+        let Some(snapshot) = &self.good else {
             return self.offer_an_earlier_checkpoint(failure);
         };
         self.known = DerivedState::default();

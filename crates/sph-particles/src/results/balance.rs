@@ -36,10 +36,8 @@ pub struct Balance<const D: usize> {
     pub mach: f64,
     /// Mass that is faster than [`FAST`], [`COMPRESSIBLE`] and [`SUPERSONIC`] of its sound, kg.
     pub faster: [f64; 3],
-    /// Least density over reference density.
-    pub least_density: f64,
-    /// Largest density over reference density.
-    pub largest_density: f64,
+    /// Least and largest density over reference density.
+    pub density_range: [f64; 2],
 }
 
 impl<const D: usize> Balance<D> {
@@ -55,12 +53,12 @@ impl<const D: usize> Balance<D> {
             fastest: 0.0,
             mach: 0.0,
             faster: [0.0; 3],
-            least_density: f64::INFINITY,
-            largest_density: f64::NEG_INFINITY,
+            density_range: [f64::INFINITY, f64::NEG_INFINITY],
         }
     }
 
     fn and(self, o: Self) -> Self {
+        let ([least, largest], [low, high]) = (self.density_range, o.density_range);
         Balance {
             mass: self.mass + o.mass,
             momentum: self.momentum + o.momentum,
@@ -72,8 +70,7 @@ impl<const D: usize> Balance<D> {
             fastest: self.fastest.max(o.fastest),
             mach: self.mach.max(o.mach),
             faster: std::array::from_fn(|k| self.faster[k] + o.faster[k]),
-            least_density: self.least_density.min(o.least_density),
-            largest_density: self.largest_density.max(o.largest_density),
+            density_range: [least.min(low), largest.max(high)],
         }
     }
 
@@ -114,8 +111,7 @@ impl<const D: usize> Balance<D> {
                 mach,
                 faster: [FAST, COMPRESSIBLE, SUPERSONIC]
                     .map(|most| if mach > most { m } else { 0.0 }),
-                least_density: ratio,
-                largest_density: ratio,
+                density_range: [ratio; 2],
             }
         };
         let batch = |b: usize| {

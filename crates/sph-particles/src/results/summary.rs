@@ -67,7 +67,7 @@ pub struct Drift {
 }
 
 /// All that is known of a run at its end.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Summary {
     /// Layout of this file.
     pub schema_version: u32,

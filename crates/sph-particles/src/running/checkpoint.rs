@@ -8,9 +8,10 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Inserted, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_neighbours::WallForce;
-use sph_run::Identity;
+use sph_run::{Identity, Start, Watch};
 use sph_scene::Scene;
 use sph_solver::Flow;
+use sph_solver::step::Hooked;
 
 use crate::failure::error::RunError;
 use crate::running::counters::{Counters, MOST};
@@ -107,6 +108,37 @@ fn refused(path: &Path, reason: impl Into<String>) -> RunError {
         path: PathBuf::from(path),
         reason: reason.into(),
     }
+}
+
+/// Puts the flow where the run begins, and returns the counts until there.
+pub fn begin<const D: usize>(
+    scene: &Scene,
+    identity: &Identity,
+    start: &Start,
+    own: &Path,
+    flow: &mut Flow<D>,
+    observer: &mut Watch<'_>,
+) -> Result<Counters, RunError> {
+    let mut counters = Counters::begin();
+    if start.goes_on() {
+        let identity = (*start == Start::Resumed).then_some(identity);
+        counters = load(flow, scene, own, identity)?;
+        flow.recount(&counters.left);
+        for Hooked { hook, .. } in &mut flow.hooks.all {
+            if let Some(counts) = counters.works.remove(&hook.name()) {
+                hook.resume(counts);
+            }
+        }
+        let (time, step) = (flow.world.time, counters.steps);
+        observer.message(&format!("resuming at t = {time:.6} s, step {step}"));
+    }
+    if let Start::From(other) = start {
+        start_from(flow, scene, other)?;
+        let (time, from) = (flow.world.time, other.display());
+        observer.message(&format!("starting at t = {time:.6} s from {from}"));
+        counters.started_at = Some(time.to_bits());
+    }
+    Ok(counters)
 }
 
 /// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is given;

@@ -5,7 +5,7 @@ use std::path::Path;
 use sph_core::StepError;
 use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
 
-use crate::running::beginning::begin;
+use crate::running::checkpoint::begin;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
 use crate::running::ranked;
@@ -65,7 +65,7 @@ impl<const D: usize> Model for Running<'_, D> {
                     continue;
                 }
                 self.known.evaluated = true;
-                if self.good.taken && f64::from_bits(self.counters.step_scale) >= 1.0 {
+                if self.good.is_some() && f64::from_bits(self.counters.step_scale) >= 1.0 {
                     self.counters.retries = 0;
                 }
             }

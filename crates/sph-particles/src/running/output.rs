@@ -7,7 +7,7 @@ use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
 use sph_neighbours::World;
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
-use sph_scene::{PictureRange, Scene, given};
+use sph_scene::{Scene, given};
 use sph_solver::Flow;
 
 use crate::failure::error::RunError;
@@ -23,13 +23,10 @@ pub(crate) fn shows_depths(scene: &Scene) -> bool {
 }
 
 /// Fields and pictures of a scene.
-pub(crate) struct Outputs {
-    fields: Vec<String>,
-    pictures: Vec<String>,
-    colours: Colours,
-    title: String,
-    /// Names of the phases, for pictures of them.
-    phases: Vec<String>,
+pub(crate) struct Outputs<'a> {
+    pub scene: &'a Scene,
+    /// Pressure of the fluid at rest, Pa; 0 where there is none.
+    pub pressure: f64,
 }
 
 /// The files of a scene's outputs.
@@ -47,18 +44,7 @@ pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outla
     }
 }
 
-impl Outputs {
-    /// Pictures of a scene whose fluid at rest has a pressure (Pa).
-    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
-        Outputs {
-            fields: scene.output.fields.clone(),
-            pictures: scene.output.picture.clone(),
-            colours: Colours::from_scene(scene, pressure),
-            title: scene.title.clone(),
-            phases: scene.phase.keys().cloned().collect(),
-        }
-    }
-
+impl Outputs<'_> {
     /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
     /// of ranks, where these write frames together. Returns changes of the pictures.
     pub fn write<const D: usize>(
@@ -71,39 +57,40 @@ impl Outputs {
         let mut remarks = Vec::new();
         let points = points(flow)?;
         // No column: only an output reads it.
-        let depth = SURFACE_DISTANCE;
-        let asked = self.fields.iter().chain(&self.pictures);
-        let depths = match asked.into_iter().any(|name| name == depth.name) {
+        let depths = match shows_depths(self.scene) {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
         self.write_frame((flow, zones), (&points, &depths), frames, among)?;
-        for name in &self.pictures {
-            let drawn = match name == depth.name {
+        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
+        for name in &self.scene.output.picture {
+            let drawn = match name == SURFACE_DISTANCE.name {
                 true => Some(("surface distance [m]".to_string(), depths.clone())),
                 false => column_of(flow, name),
             };
-            let Some(drawn) = drawn else { continue };
+            let Some((label, values)) = drawn else {
+                continue;
+            };
             let classes = match name == fields::PHASE.name {
-                true => &self.phases[..],
+                true => &phases[..],
                 false => &[],
             };
-            let range = match classes {
-                [] => self.colours.range(name, &drawn.1, &mut frames.colours),
+            let (range, told) = match classes {
+                [] => self.range(name, &values, &mut frames.colours),
                 _ => (None, None),
             };
-            remarks.extend(range.1);
+            remarks.extend(told);
             let finest = finest(flow, zones, name)?;
             let (points, values, diameters) = match &finest {
                 Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
-                None => (&points[..], &drawn.1[..], &[][..]),
+                None => (&points[..], &values[..], &[][..]),
             };
             let picture = Picture {
                 diameters,
                 walls: &drawn_walls(&flow.world),
                 classes,
-                range: range.0,
-                ..self.picture(&flow.world, points, (&drawn.0, values))
+                range,
+                ..self.picture(&flow.world, points, (&label, values))
             };
             picture.save(frames.picture(name))?;
         }
@@ -118,7 +105,7 @@ impl Outputs {
             if let Some(drawn) = curves.drawn_column() {
                 let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
                 let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
-                let (range, told) = self.colours.range(name, &values, &mut frames.colours);
+                let (range, told) = self.range(name, &values, &mut frames.colours);
                 remarks.extend(told);
                 // A map over the first two columns, its cells as wide as the nearest ones are apart.
                 let places: Vec<_> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
@@ -127,9 +114,10 @@ impl Outputs {
                 let diameter = pairs.fold(f64::INFINITY, f64::min);
                 let plain = self.picture(&flow.world, &places, (&label, &values));
                 let picture = Picture {
-                    diameter: Some(diameter)
-                        .filter(|d| d.is_finite())
-                        .unwrap_or(plain.diameter),
+                    diameter: match diameter.is_finite() {
+                        true => diameter,
+                        false => plain.diameter,
+                    },
                     view: View::Plane,
                     range,
                     ..plain
@@ -148,7 +136,7 @@ impl Outputs {
         (label, values): (&'a str, &'a [f64]),
     ) -> Picture<'a> {
         Picture {
-            title: &self.title,
+            title: &self.scene.title,
             time: Some(world.time),
             label,
             diameter: world.spacing,
@@ -156,6 +144,35 @@ impl Outputs {
             colours: ColourMap::Viridis,
             ..Picture::new(points, values)
         }
+    }
+
+    /// The range for the next picture of a field, and a remark if it is wider than pictures have `seen`.
+    fn range(
+        &self,
+        field: &str,
+        values: &[f64],
+        seen: &mut ColourRanges,
+    ) -> (Option<[f64; 2]>, Option<String>) {
+        let given = self.scene.output.picture_range.as_ref();
+        let given = given.and_then(|all| all.ends(field));
+        let speeds = self.scene.phase.values().filter_map(|p| p.velocity_scale);
+        let scale = match field {
+            _ if field == fields::PRESSURE.name => self.pressure,
+            _ if field == fields::VELOCITY.name => speeds.fold(0.0, f64::max),
+            _ => 0.0,
+        };
+        let scaled = (scale > 0.0).then_some([0.0, scale]);
+        if let Some(range) = given.or(scaled) {
+            return (Some(range), None);
+        }
+        let Some((range, wider)) = seen.next(field, values) else {
+            return (None, None);
+        };
+        let [low, high] = range.map(sph_core::number::plain);
+        let told = wider.then(|| {
+            format!("note: colours of `{field}` go from {low} to {high} from here on; `output.picture_range` fixes them")
+        });
+        (Some(range), told)
     }
 
     /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
@@ -169,7 +186,7 @@ impl Outputs {
         if !frames.lists() {
             return Ok(());
         }
-        let wanted = |name: &str| self.fields.iter().any(|f| f == name);
+        let wanted = |name: &str| self.scene.output.fields.iter().any(|f| f == name);
         let mut fluid = match among {
             Some((part, _)) => own_particles(part, wanted)?,
             None => particles(&flow.world.free, points, wanted),
@@ -220,51 +237,4 @@ fn finest<const D: usize>(
         diameters.resize(places.len(), flow.world.spacing);
     }
     Ok(Some((places, values, diameters)))
-}
-
-/// Ranges that a scene gives, and that follow from it.
-pub(crate) struct Colours {
-    given: Option<PictureRange>,
-    /// Pressure of the fluid at rest, Pa; 0 where there is none.
-    pressure: f64,
-    /// The largest `velocity_scale`, m/s; 0 where none is given.
-    speed: f64,
-}
-
-impl Colours {
-    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
-        let scales = scene.phase.values().filter_map(|p| p.velocity_scale);
-        Colours {
-            given: scene.output.picture_range.clone(),
-            pressure,
-            speed: scales.fold(0.0, f64::max),
-        }
-    }
-
-    /// The range for the next picture of a field, and a remark if it is wider than pictures have `seen`.
-    pub fn range(
-        &self,
-        field: &str,
-        values: &[f64],
-        seen: &mut ColourRanges,
-    ) -> (Option<[f64; 2]>, Option<String>) {
-        let given = self.given.as_ref().and_then(|all| all.ends(field));
-        let scale = match field {
-            _ if field == fields::PRESSURE.name => self.pressure,
-            _ if field == fields::VELOCITY.name => self.speed,
-            _ => 0.0,
-        };
-        let scaled = (scale > 0.0).then_some([0.0, scale]);
-        if let Some(range) = given.or(scaled) {
-            return (Some(range), None);
-        }
-        let Some((range, wider)) = seen.next(field, values) else {
-            return (None, None);
-        };
-        let [low, high] = range.map(sph_core::number::plain);
-        let told = wider.then(|| {
-            format!("note: colours of `{field}` go from {low} to {high} from here on; `output.picture_range` fixes them")
-        });
-        (Some(range), told)
-    }
 }

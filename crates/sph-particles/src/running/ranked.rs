@@ -12,7 +12,7 @@ use sph_scene::Scene;
 
 use crate::failure::error::RunError;
 use crate::results::summary::RankShare;
-use crate::running::beginning::begin;
+use crate::running::checkpoint::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;

@@ -6,16 +6,23 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sph_core::StepError;
+use sph_neighbours::Nearby;
 use sph_neighbours::decomposition::{Thread, Transport};
-use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
+use sph_run::{Opened, RunOptions, Schedule, Start, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::running::course::Running;
+use crate::running::counters::Counters;
+use crate::running::course::{DerivedState, Running};
 use crate::running::next_step::{RECOVERY, next_step, standing_still};
 use crate::running::output::outlay;
-use crate::running::ready::ready;
-use crate::setup::all_ready;
+use crate::running::ranked;
+use crate::running::series::Extrema;
+use crate::running::watches::{DepartureWatch, EnergyWatch, MachWatch};
+use crate::setup::{
+    all_ready, assemble_share, readable, refuse_the_indivisible, rehearse, short_steps,
+};
+use crate::zones::attach;
 use crate::{RunError, Summary};
 
 /// Runs a scene.
@@ -53,13 +60,21 @@ fn run_with(
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
 ) -> Result<Option<Summary>, RunError> {
-    let threads = options.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    pool.install(|| match scene.dimension {
+    on_threads(options.threads, || match scene.dimension {
         3 => run_in::<3>(scene, options, ranks, observer),
         _ => run_in::<2>(scene, options, ranks, observer),
-    })
+    })?
+}
+
+/// Results on so many threads; without a number on one for each core.
+pub(crate) fn on_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, RunError> {
+    let builder = rayon::ThreadPoolBuilder::new();
+    let pool = builder.num_threads(threads.unwrap_or(0)).build();
+    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
+    Ok(pool.install(work))
 }
 
 fn run_in<const D: usize>(
@@ -101,6 +116,56 @@ fn run_in<const D: usize>(
     opened.drive(&mut running, &schedule, Instant::now(), observer)
 }
 
+/// A run that has not begun, of a scene that nothing is refused of.
+fn ready<'a, const D: usize>(
+    scene: &'a Scene,
+    options: &'a RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+) -> Result<Running<'a, D>, RunError> {
+    let share = ranked::share(scene, options, ranks.as_ref());
+    let mut parts = assemble_share::<D>(scene, share)?;
+    if !parts.flow.is_blank() {
+        rehearse(scene, &mut parts.flow, &parts.probes)?;
+        let mut limits = parts.flow.step_limits()?;
+        parts.flow.least_limits(&mut limits)?;
+        let remedies = parts.flow.remedies_of_bounds()?;
+        let short = short_steps(scene, &limits, &remedies)?;
+        parts.warnings.extend(short);
+    }
+    readable(scene)?;
+    let why = match (&ranks, &options.start) {
+        (Some(_), _) => Some("zones run in one process: take `--ranks` out"),
+        (_, Start::From(_)) => Some("a run with zones begins at its start: take `--from` out"),
+        _ => None,
+    };
+    if let Some((name, why)) = scene.zone.keys().next().zip(why) {
+        return Err(RunError::at(format!("zone.{name}"), why));
+    }
+    let zones = attach(scene, &parts)?;
+    if let Some(ranks) = &ranks {
+        refuse_the_indivisible(&parts.flow, ranks.ranks())?;
+    }
+    Ok(Running {
+        scene,
+        options,
+        ranks,
+        whole: None,
+        counters: Counters::begin(),
+        extrema: Extrema::NONE,
+        good: None,
+        known: DerivedState::default(),
+        tried: (0.0, "none"),
+        limits: Vec::new(),
+        mach: MachWatch::default(),
+        energy: EnergyWatch::from_scene(scene, &parts.flow, None),
+        departure: DepartureWatch::default(),
+        shares: Vec::new(),
+        around: Nearby::NONE,
+        parts,
+        zones,
+    })
+}
+
 /// Adds to the count of a name, which is entered at its first use.
 fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
     match all.get_mut(name) {
@@ -118,8 +183,8 @@ impl<const D: usize> Running<'_, D> {
             Err(cause) => return Ok(Err(cause)),
         };
         if self.scene.run.retries > 0 {
-            self.good.snapshot.take(&self.parts.flow)?;
-            self.good.taken = true;
+            let good = self.good.get_or_insert_default();
+            good.take(&self.parts.flow)?;
         }
         if let Some(cause) = standing_still(time, dt, target, limiter) {
             return Err(self.failed(cause));
@@ -146,10 +211,7 @@ impl<const D: usize> Running<'_, D> {
             *most = stage.bytes().max(*most);
         }
         // No rank goes on to what is done with an evaluated state if another has none.
-        match self.agreed(done.err()) {
-            None => Ok(()),
-            Some(cause) => Err(cause),
-        }
+        self.agreed(done.err()).map_or(Ok(()), Err)
     }
 
     /// The next step and its limit, noted with all bounds.

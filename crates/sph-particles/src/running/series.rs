@@ -83,9 +83,8 @@ impl Extrema {
             balance.potential,
             balance.internal,
             balance.fastest,
-            balance.least_density,
-            balance.largest_density,
         ]);
+        row.extend(balance.density_range);
         for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }
@@ -96,8 +95,8 @@ impl Extrema {
             }
             row.extend(probe.measure(world)?);
         }
-        self.density_range[0] = self.density_range[0].min(balance.least_density);
-        self.density_range[1] = self.density_range[1].max(balance.largest_density);
+        let ([least, largest], [low, high]) = (self.density_range, balance.density_range);
+        self.density_range = [least.min(low), largest.max(high)];
         let parts = [balance.kinetic, balance.potential, balance.internal];
         let energy = balance.energy().abs();
         let largest = parts.iter().fold(energy, |m, e| m.max(e.abs()));

@@ -7,6 +7,7 @@ use sph_scene::Scene;
 use sph_solver::{Snapshot, SolverError};
 
 use crate::failure::error::RunError;
+use crate::running::run::on_threads;
 use crate::setup::{Examination, examine_in};
 use crate::zones::{Coupling, Stepper, attach};
 
@@ -39,12 +40,10 @@ pub fn examine_and_try(
     threads: usize,
     budget: Duration,
 ) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    pool.install(|| match scene.dimension {
+    on_threads(Some(threads), || match scene.dimension {
         3 => examined_and_tried::<3>(scene, budget),
         _ => examined_and_tried::<2>(scene, budget),
-    })
+    })?
 }
 
 fn examined_and_tried<const D: usize>(

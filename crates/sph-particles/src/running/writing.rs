@@ -10,7 +10,7 @@ use crate::failure::error::RunError;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
-use crate::running::output::shows_depths;
+use crate::running::output::{Outputs, shows_depths};
 use crate::running::pieces::write_own_share;
 use crate::setup::Probes;
 
@@ -37,7 +37,10 @@ impl<const D: usize> Running<'_, D> {
         match (frames, among) {
             (Some(frames), among) => {
                 let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
-                let outputs = &self.outputs;
+                let outputs = Outputs {
+                    scene: self.scene,
+                    pressure: self.parts.pressure,
+                };
                 outputs.write((&shown.flow, &self.zones), &shown.probes, frames, among)
             }
             (None, Some((rank, _))) => {

@@ -18,7 +18,7 @@ use sph_solver::step::{
 };
 use sph_solver::{Flow, SolverError};
 
-use crate::setup::domain::{extent, height, pressure_at_rest};
+use crate::setup::domain::{height, pressure_at_rest};
 use crate::setup::estimate::refuse_the_absurd;
 use crate::setup::initial_world::InitialWorld;
 use crate::setup::leaks::Leak;
@@ -30,8 +30,7 @@ use crate::setup::share::Share;
 use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
-use crate::setup::wall_speeds::speeds;
-use crate::setup::{field_error, lattices, movers, open_faces, variable_gravity};
+use crate::setup::{field_error, lattices, movers, open_faces, variable_gravity, wall_speeds};
 
 /// Way of the fastest point of a wall within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -78,7 +77,7 @@ pub(crate) fn assembled<const D: usize>(
     let mut choices = chosen::<D>(scene)?;
     let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::prepare(scene, &mut drawn, &mut choices, &laws)?;
-    let speeds = wall_speeds(scene, &drawn, &laws)?;
+    let speeds = wall_speeds::remarks(scene, &drawn, &laws)?;
     let opened = open_faces::prepare(scene, &mut drawn, &mut choices, &laws)?;
     let room = InitialWorld::for_share(scene, &drawn, &mut choices, &mut share)?;
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
@@ -152,7 +151,8 @@ pub(crate) fn assembled<const D: usize>(
 /// The plugins of a scene, with all probes ready.
 fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
-    choices.probes.extend(field_error::probes(scene)?);
+    let errors = field_error::probes(scene, &mut choices.solutions);
+    choices.probes.extend(errors);
     probe_setup::prepare(scene, &mut choices.probes)?;
     Ok(choices)
 }
@@ -169,18 +169,6 @@ fn remarks<const D: usize>(
     let mut all = ground.remarks(scene, flow)?;
     all.extend(lattices::remarks(scene, flow, &placed.body)?);
     Ok(all)
-}
-
-/// Refuses walls that are faster than sound in the slowest phase.
-fn wall_speeds<const D: usize>(
-    scene: &Scene,
-    drawn: &Drawn<D>,
-    laws: &Laws,
-) -> Result<Vec<String>, SolverError> {
-    let sounds = laws.iter().map(|law| law.reference().sound_speed);
-    let slowest = sounds.fold(f64::INFINITY, f64::min);
-    let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
-    SolverError::refuse(found.refused).map(|()| found.remarks)
 }
 
 /// Input of a plan, before there is one.
@@ -243,14 +231,14 @@ impl<const D: usize> PlanInput<'_, D> {
     }
 }
 
-/// The columns that carry history.
-fn state<const D: usize>(
+/// The columns that carry history, with places, identities and phases in them, and where particles leave.
+fn filled_columns<const D: usize>(
     scene: &Scene,
     formulation: &dyn Formulation<D>,
     parts: &[Part<D>],
-    particles: usize,
-) -> Result<Store<D>, SolverError> {
-    let mut free = Store::new(particles);
+    placed: &PlacedParticles<D>,
+) -> Result<(Store<D>, Outlets), SolverError> {
+    let mut free = Store::new(placed.positions.len());
     free.add(fields::POSITION, Role::State);
     free.add(fields::VELOCITY, Role::State);
     free.add(fields::MASS, Role::State);
@@ -270,29 +258,8 @@ fn state<const D: usize>(
         }
         free.add_any(column.field, Role::State);
     }
-    Ok(free)
-}
-
-/// The columns that carry history, with places, identities and phases in them, and where particles leave.
-fn filled_columns<const D: usize>(
-    scene: &Scene,
-    formulation: &dyn Formulation<D>,
-    parts: &[Part<D>],
-    placed: &PlacedParticles<D>,
-) -> Result<(Store<D>, Outlets), SolverError> {
-    let mut free = state(scene, formulation, parts, placed.positions.len())?;
-    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)
-        .map_err(SolverError::Scene)?;
-    give_places(scene, &mut free, placed)?;
-    Ok((free, outlets))
-}
-
-/// Gives particles their places, identities and phases.
-fn give_places<const D: usize>(
-    scene: &Scene,
-    free: &mut Store<D>,
-    placed: &PlacedParticles<D>,
-) -> Result<(), SolverError> {
+    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free);
+    let outlets = outlets.map_err(SolverError::Scene)?;
     let count = free.len() as u32;
     free.get_mut(fields::POSITION)?
         .copy_from_slice(&placed.positions);
@@ -306,7 +273,7 @@ fn give_places<const D: usize>(
         identities: count,
         ..Inserted::default()
     });
-    Ok(())
+    Ok((free, outlets))
 }
 
 /// Keeps displacements where an output or a probe needs them; refuses outputs of fields that there are none of.

@@ -7,24 +7,20 @@ use sph_solver::SolverError;
 
 use crate::setup::shapes::Drawn;
 
-/// Extent of all bodies along gravity, m.
-pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
-    extent_along_gravity(scene, regions.iter())
-}
-
 /// Σ ρ g H over the phases, H the extent of a phase's bodies along gravity, Pa; zero without gravity.
 pub fn pressure_at_rest<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
     let of = |(name, phase): (&String, &sph_scene::Phase)| {
         let bodies = scene.body.values().zip(regions);
         let own = bodies.filter(|(body, _)| body.phase == *name);
-        phase.density * extent_along_gravity(scene, own.map(|(_, region)| region))
+        phase.density * height(scene, own.map(|(_, region)| region))
     };
     scene.gravity::<D>().norm() * scene.phase.iter().map(of).sum::<f64>()
 }
 
-fn extent_along_gravity<'a, const D: usize>(
+/// Extent of bodies along gravity, m.
+pub fn height<'a, const D: usize>(
     scene: &Scene,
-    regions: impl Iterator<Item = &'a Region<D>>,
+    regions: impl IntoIterator<Item = &'a Region<D>>,
 ) -> f64 {
     let gravity = scene.gravity::<D>();
     let Some(down) = gravity.try_normalize(0.0) else {

@@ -1,10 +1,9 @@
 //! The difference of a field from a solution, at the end and as a probe over time.
 
-use sph_core::{Plain, Registry, StepError, Vect, fields};
+use sph_core::{Plain, StepError, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeColumn, Solution, SolutionEntry, norm};
-use sph_scene::{Norm, Scene};
-use sph_solver::SolverError;
+use sph_probes::{Probe, ProbeColumn, Solution, norm};
+use sph_scene::{Norm, Reference, Scene};
 
 /// A field and its exact values, `components` numbers per particle.
 pub struct Compared {
@@ -84,27 +83,19 @@ pub fn column(reference: &str) -> String {
     format!("error.{reference}")
 }
 
-/// A probe for every reference whose norm is a mean over time.
-///
-/// # Errors
-/// If its solution cannot be built.
-#[allow(clippy::type_complexity, reason = "the list of probes as it is kept")]
+/// A probe for every reference whose norm is a mean over time, with the solution of that.
 pub fn probes<const D: usize>(
     scene: &Scene,
-) -> Result<Vec<(String, Box<dyn Probe<D>>)>, SolverError> {
-    let mut probes: Vec<(String, Box<dyn Probe<D>>)> = Vec::new();
-    for (name, reference) in &scene.reference {
-        let (Norm::L2Mean, Some(field), Some(choice)) =
-            (reference.norm(), &reference.field, scene.solution(name))
-        else {
-            continue;
-        };
-        let built = Registry::<SolutionEntry>::discovered()
-            .and_then(|registry| registry.find(&choice.name))
-            .and_then(|entry| entry.build::<D>(&choice.table));
-        let solution = built.map_err(|e| SolverError::Scene(choice.scene_problems(&e)))?;
-        let field = field.clone();
-        probes.push((column(name), Box::new(ErrorProbe { field, solution })));
-    }
-    Ok(probes)
+    solutions: &mut Vec<(String, Box<dyn Solution<D>>)>,
+) -> Vec<(String, Box<dyn Probe<D>>)> {
+    let means = scene.reference.iter();
+    let means = means.filter(|(_, r)| r.norm() == Norm::L2Mean);
+    let probe = |(name, reference): (&String, &Reference)| {
+        let field = reference.field.clone()?;
+        let at = solutions.iter().position(|(n, _)| n == name)?;
+        let (_, solution) = solutions.remove(at);
+        let probe: Box<dyn Probe<D>> = Box::new(ErrorProbe { field, solution });
+        Some((column(name), probe))
+    };
+    means.filter_map(probe).collect()
 }

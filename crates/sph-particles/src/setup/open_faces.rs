@@ -19,6 +19,7 @@ use sph_solver::{SolverError, defaults};
 
 use crate::setup::box_around;
 use crate::setup::shapes::Drawn;
+use crate::setup::sound::slowest_sound;
 
 /// Distance in front of a port within which the free volume of a particle is measured, over the spacing.
 const ROOM: f64 = 0.5;
@@ -45,10 +46,9 @@ pub(crate) fn prepare<const D: usize>(
         return Err(SolverError::at(path(scene, first, ""), why));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
-    let speeds = laws.iter().map(|law| law.reference().sound_speed);
     let setting = OpenSetting {
         phases: &phases,
-        sound_speed: speeds.fold(f64::INFINITY, f64::min),
+        sound_speed: slowest_sound(laws),
         end: scene.run.end,
         gravity: scene.gravity::<D>().norm(),
         dimension: D,
@@ -94,8 +94,9 @@ pub(crate) fn check<const D: usize>(
     let Some(opened) = opened else {
         return Ok(Vec::new());
     };
-    let misfits = opened.misfits().into_iter();
-    let misfits = misfits
+    let misfits = opened
+        .misfits()
+        .into_iter()
         .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why));
     SolverError::refuse(misfits.collect())?;
     let mut blocked = Vec::<SceneProblem>::new();
@@ -113,20 +114,15 @@ pub(crate) fn check<const D: usize>(
         }
     }
     SolverError::refuse(blocked)?;
-    let mut all = remarks(scene, opened);
-    all.extend(lift(scene, opened, walls, filled));
-    Ok(all)
-}
-
-fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<String> {
-    if opened.let_out() || !scene.outlet.is_empty() {
-        return Vec::new();
-    }
     let outflow = defaults::OUTFLOW;
-    vec![format!(
-        "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
-         fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
-    )]
+    let closed = (!opened.let_out() && scene.outlet.is_empty()).then(|| {
+        format!(
+            "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
+             fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
+        )
+    });
+    let lifted = lift(scene, opened, walls, filled);
+    Ok(closed.into_iter().chain(lifted).collect())
 }
 
 /// Joins open faces to the parts; refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
@@ -197,12 +193,10 @@ fn lift<const D: usize>(
 ) -> Option<String> {
     let walls = walls?;
     let references = || laws.iter().map(|law| law.reference());
-    let speeds = references().map(|r| r.sound_speed);
-    let slowest = speeds.fold(f64::INFINITY, f64::min);
     positions.first()?;
     let [low, high] = box_around(positions);
     // Sound goes there and back.
-    let time = 2.0 * (high - low).norm() / slowest;
+    let time = 2.0 * (high - low).norm() / slowest_sound(laws);
     let (face, fall) = opened.braking(time, scene.run.end)?;
     let at_reference = laws.iter().map(|law| {
         let mut pressure = [0.0];

@@ -13,21 +13,29 @@ pub const LONGEST: u64 = 64 << 20;
 pub fn readable(scene: &Scene) -> Result<(), SolverError> {
     for (name, reference) in &scene.reference {
         if let Some(path) = &reference.path {
-            let read = reference_table(reference, path);
+            let read = reference_series(reference, path);
             read.map_err(|e| SolverError::at(format!("reference.{name}.file"), e.to_string()))?;
         }
     }
     Ok(())
 }
 
-/// The reference's columns: time, value, and for a band the upper limit; finite numbers, in the order of time.
-pub fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoError> {
+/// Times, values, and the upper limits of a band: finite numbers, in the order of time, scaled as the reference says.
+pub fn reference_series(reference: &Reference, path: &Path) -> Result<[Vec<f64>; 3], IoError> {
     sph_io::readable(path, LONGEST)?;
     let table = columns_of(reference, path)?;
-    match unfit(&table, reference.norm() == Norm::Band) {
-        None => Ok(table),
-        Some(problem) => Err(IoError::Unfit(path.into(), problem)),
+    let band = reference.norm() == Norm::Band;
+    if let Some(problem) = unfit(&table, band) {
+        return Err(IoError::Unfit(path.into(), problem));
     }
+    let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+        let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
+        column.iter().map(|v| v * scale + offset).collect()
+    };
+    let times = scaled(0, reference.scale_time, reference.offset_time);
+    let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+    let high = if band { value(2) } else { Vec::new() };
+    Ok([times, value(1), high])
 }
 
 /// Errors of a table that cannot be compared with.

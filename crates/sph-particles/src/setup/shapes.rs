@@ -26,6 +26,7 @@ fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
 }
 
 /// Walls and bodies.
+#[derive(Default)]
 pub struct Drawn<const D: usize> {
     /// The walls; one that is drawn in several pieces is there once per piece.
     pub walls: Vec<WallSpec<D>>,
@@ -43,12 +44,7 @@ impl<const D: usize> Drawn<D> {
     /// # Errors
     /// If a file cannot be read or a shape is refused; the message points at the key.
     pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
-        let mut drawn = Drawn {
-            walls: Vec::new(),
-            bounds: None,
-            measure: 0.0,
-            regions: Vec::new(),
-        };
+        let mut drawn = Drawn::default();
         let mut pieces = 0;
         let mut beds = BTreeMap::new();
         // Those of shapes are known before any is drawn.
