@@ -33,9 +33,8 @@ mod variable_gravity;
 mod wall_speeds;
 
 pub use assemble::Assembled;
-pub(crate) use assemble::moves;
+pub(crate) use assemble::{assembled, moves};
 pub use dimensions::assemble;
-pub(crate) use dimensions::assemble_share;
 pub(crate) use domain::{box_around, corner};
 pub(crate) use estimate::short_steps;
 pub use estimate::{Estimate, Memory, Size, size};

@@ -16,7 +16,7 @@ use crate::running::checkpoint::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
-use crate::setup::{Assembled, Memory, Share, assemble_share};
+use crate::setup::{Assembled, Memory, Share, assembled};
 
 /// The part that a process assembles: on ranks only where particles settle first does each hold the whole for a while.
 pub(crate) fn share<const D: usize>(
@@ -41,7 +41,7 @@ pub(crate) fn columns_of_all<const D: usize>(
     counters: &Counters,
 ) -> Result<Assembled<D>, RunError> {
     if looks_around(scene, parts) {
-        let mut all = assemble_share::<D>(scene, Share::Blank)?;
+        let mut all = assembled::<D>(scene, Share::Blank)?;
         begin(scene, identity, start, own, &mut all.flow, &mut ())?;
         return Ok(all);
     }
@@ -57,7 +57,7 @@ pub(crate) fn columns_of_all<const D: usize>(
         };
         Box::new((walls, set))
     });
-    let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    let mut all = assembled::<D>(scene, Share::Columns(standing))?;
     parts.flow.walls = all.flow.walls.take();
     all.flow.laws = parts.flow.laws.clone();
     all.flow.recount(&counters.left);

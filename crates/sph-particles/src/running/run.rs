@@ -19,9 +19,7 @@ use crate::running::output::outlay;
 use crate::running::ranked;
 use crate::running::series::Extrema;
 use crate::running::watches::{DepartureWatch, EnergyWatch, MachWatch};
-use crate::setup::{
-    all_ready, assemble_share, readable, refuse_the_indivisible, rehearse, short_steps,
-};
+use crate::setup::{all_ready, assembled, readable, refuse_the_indivisible, rehearse, short_steps};
 use crate::zones::attach;
 use crate::{RunError, Summary};
 
@@ -123,7 +121,7 @@ fn ready<'a, const D: usize>(
     ranks: Option<Arc<dyn Transport>>,
 ) -> Result<Running<'a, D>, RunError> {
     let share = ranked::share(scene, options, ranks.as_ref());
-    let mut parts = assemble_share::<D>(scene, share)?;
+    let mut parts = assembled::<D>(scene, share)?;
     if !parts.flow.is_blank() {
         rehearse(scene, &mut parts.flow, &parts.probes)?;
         let mut limits = parts.flow.step_limits()?;

@@ -23,9 +23,6 @@ impl<const D: usize> Stepper<D> {
     }
 
     /// Steps a scene that is assembled already.
-    ///
-    /// # Errors
-    /// Every problem of its zones, with its path.
     pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Result<Self, RunError> {
         let zones = attach(scene, &parts)?;
         Ok(Self::from_parts(scene, parts, zones))

@@ -27,10 +27,11 @@ use crate::setup::probe_setup::{self, check_output_fields};
 use crate::setup::relax::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::setup::share::Share;
-use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
-use crate::setup::{field_error, lattices, movers, open_faces, variable_gravity, wall_speeds};
+use crate::setup::{
+    field_error, lattices, movers, open_faces, soil_remarks, variable_gravity, wall_speeds,
+};
 
 /// Way of the fastest point of a wall within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -85,7 +86,6 @@ pub(crate) fn assembled<const D: usize>(
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let mut ground = Ground::from_rheologies(&choices.rheologies);
     let (kinematic_viscosities, constant) = kinematic_viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
     let shown = shown(scene, &choices.probes);
@@ -93,18 +93,16 @@ pub(crate) fn assembled<const D: usize>(
     open_faces::join(scene, opened, &mut parts)?;
     let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
     let world = World { free, ..room };
-    let planned = PlanInput {
+    let soils = soil_remarks::soils(&choices.rheologies);
+    let planned = plan(
         scene,
-        formulation: &*formulation,
-        integrator: &*choices.integrator,
-        laws: &laws,
-        viscosities: &constant,
-        soils: &ground.soil,
-        walls: walls.as_deref(),
-        shown: &shown,
-    }
-    .plan(&world, &mut parts)?;
-    ground.saturated = planned.offer.saturated;
+        (&*formulation, &*choices.integrator),
+        (&laws, &constant, &soils),
+        (&world, walls.as_deref()),
+        &shown,
+        &mut parts,
+    )?;
+    let saturated = planned.offer.saturated;
     let diffused = formulation.diffused();
     let given = FlowInputs {
         walls,
@@ -125,7 +123,11 @@ pub(crate) fn assembled<const D: usize>(
         formulation: &*formulation,
         columns: &columns().collect::<Vec<_>>(),
     };
-    warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
+    flow.know_exits(scene);
+    flow.world.wrap()?;
+    let soils = soil_remarks::remarks(scene, &flow, &choices.rheologies, saturated)?;
+    warnings.extend(soils);
+    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
     let (probes, integrator) = (&choices.probes, &*choices.integrator);
     accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
@@ -157,78 +159,59 @@ fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     Ok(choices)
 }
 
-/// Warnings about the places of the particles, which are brought into the box.
-fn remarks<const D: usize>(
-    scene: &Scene,
-    ground: &Ground,
-    placed: &PlacedParticles<D>,
-    flow: &mut Flow<D>,
-) -> Result<Vec<String>, SolverError> {
-    flow.know_exits(scene);
-    flow.world.wrap()?;
-    let mut all = ground.remarks(scene, flow)?;
-    all.extend(lattices::remarks(scene, flow, &placed.body)?);
-    Ok(all)
-}
-
-/// Input of a plan, before there is one.
-struct PlanInput<'a, const D: usize> {
-    scene: &'a Scene,
-    formulation: &'a dyn Formulation<D>,
-    integrator: &'a dyn Integrator,
-    laws: &'a Laws,
-    viscosities: &'a [Option<f64>],
-    soils: &'a [bool],
-    walls: Option<&'a dyn Wall<D>>,
-    shown: &'a [String],
-}
-
 /// True if a wall moves or slides.
 pub fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
 }
 
-impl<const D: usize> PlanInput<'_, D> {
-    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<StagePlan<D>, SolverError> {
-        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
-        let bodies: Vec<String> = self.scene.body.keys().cloned().collect();
-        let diffused = self.formulation.diffused();
-        let coefficients = self.integrator.coefficients();
-        let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
-        let setting = Setting {
-            laws: self.laws,
-            phases: &phases,
-            bodies: &bodies,
-            viscosities: self.viscosities,
-            soils: self.soils,
-            density: diffused.evolved,
-            summed: self.formulation.compressed().is_none(),
-            pressure_ahead: self.scene.choice("pressure").is_some(),
-            courant: coefficients.courant,
-            viscous: coefficients.viscous,
-            kicks_once: self.integrator.kicks_once(),
-            delayed_yield: self.scene.numerics.delayed_yield,
-            carried: movers::carried(self.scene),
-            moving_wall: moving.map(|(name, _)| name.as_str()),
-            world,
-        };
-        let planning = Planning {
-            scene: self.scene,
-            setting: &setting,
-            walls: self.walls,
-            diffused,
-            shown: self.shown,
-        };
-        let mut planned = planning.plan(parts)?;
-        planned.offer.limiter(ForceLimit {
-            coefficient: coefficients.force,
-        });
-        let mut walls = self.scene.wall.values();
-        if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned.offer.limiter(MotionLimit { share: WAY });
-        }
-        Ok(planned)
+/// Stages and limits of a flow, by its formulation and integrator, the laws of its phases with their constant
+/// viscosities and the marks of soils, and its walls.
+fn plan<const D: usize>(
+    scene: &Scene,
+    (formulation, integrator): (&dyn Formulation<D>, &dyn Integrator),
+    (laws, viscosities, soils): (&Laws, &[Option<f64>], &[bool]),
+    (world, walls): (&World<D>, Option<&dyn Wall<D>>),
+    shown: &[String],
+    parts: &mut [Part<D>],
+) -> Result<StagePlan<D>, SolverError> {
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let bodies: Vec<String> = scene.body.keys().cloned().collect();
+    let diffused = formulation.diffused();
+    let coefficients = integrator.coefficients();
+    let moving = scene.wall.iter().find(|(_, wall)| moves(wall));
+    let setting = Setting {
+        laws,
+        phases: &phases,
+        bodies: &bodies,
+        viscosities,
+        soils,
+        density: diffused.evolved,
+        summed: formulation.compressed().is_none(),
+        pressure_ahead: scene.choice("pressure").is_some(),
+        courant: coefficients.courant,
+        viscous: coefficients.viscous,
+        kicks_once: integrator.kicks_once(),
+        delayed_yield: scene.numerics.delayed_yield,
+        carried: movers::carried(scene),
+        moving_wall: moving.map(|(name, _)| name.as_str()),
+        world,
+    };
+    let planning = Planning {
+        scene,
+        setting: &setting,
+        walls,
+        diffused,
+        shown,
+    };
+    let mut planned = planning.plan(parts)?;
+    planned.offer.limiter(ForceLimit {
+        coefficient: coefficients.force,
+    });
+    let mut walls = scene.wall.values();
+    if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
+        planned.offer.limiter(MotionLimit { share: WAY });
     }
+    Ok(planned)
 }
 
 /// The columns that carry history, with places, identities and phases in them, and where particles leave.

@@ -118,9 +118,6 @@ pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
 }
 
 /// As [`examine`] of a scene in `D` dimensions, with its assembly.
-///
-/// # Errors
-/// Every problem of the scene, with its path.
 pub fn examine_in<const D: usize>(
     scene: &Scene,
 ) -> Result<(Examination, Assembled<D>), SolverError> {

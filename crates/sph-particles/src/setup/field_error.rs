@@ -17,9 +17,6 @@ pub struct Compared {
 
 impl Compared {
     /// The field at the particles beside the solution.
-    ///
-    /// # Errors
-    /// If there is no such field, or the solution does not give it.
     pub fn with_solution<const D: usize>(
         world: &World<D>,
         field: &str,

@@ -35,9 +35,6 @@ pub(crate) struct InitialWorld<const D: usize> {
 impl<const D: usize> InitialWorld<D> {
     /// The room of a share of a flow: builds the walls and fills the bodies, and takes the wall plugin out of the choices.
     /// Among walls that stand already there is no particle.
-    ///
-    /// # Errors
-    /// The key of the scene that is wrong.
     pub fn for_share(
         scene: &Scene,
         drawn: &Drawn<D>,

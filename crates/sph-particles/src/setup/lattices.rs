@@ -46,9 +46,6 @@ impl Contact {
 
 /// Remarks on bodies whose rows are not a spacing apart where they touch, or not from a flat wall; `body_of` gives the body of a
 /// particle's number.
-///
-/// # Errors
-/// If a column is missing.
 pub fn remarks<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,

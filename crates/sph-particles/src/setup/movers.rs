@@ -12,9 +12,6 @@ use sph_solver::setup::Choices;
 use crate::setup::shapes::Drawn;
 
 /// Gives every mover the scene, and every wall its mover; takes the movers out of the choices.
-///
-/// # Errors
-/// The keys that do not fit.
 pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,

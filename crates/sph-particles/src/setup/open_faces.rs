@@ -25,9 +25,6 @@ use crate::setup::sound::slowest_sound;
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.
-///
-/// # Errors
-/// The keys that do not fit.
 pub(crate) fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
@@ -126,9 +123,6 @@ pub(crate) fn check<const D: usize>(
 }
 
 /// Joins open faces to the parts; refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
-///
-/// # Errors
-/// The key of the value.
 pub(crate) fn join<const D: usize>(
     scene: &Scene,
     opened: Option<OpenBoundaries<D>>,

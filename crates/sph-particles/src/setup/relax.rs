@@ -27,9 +27,6 @@ struct Concentration<const D: usize> {
 /// Relaxes the first particles if the scene has `relax`: moves them down the gradient of their own concentration,
 /// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below its tolerance. Walls that scale the kernel have
 /// s_a s_b w in the place of w, and ∇ ln s Σ V s_a s_b w in that of −∇γ.
-///
-/// # Errors
-/// If a wall stage fails.
 pub fn relax<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,

@@ -40,9 +40,6 @@ pub struct Drawn<const D: usize> {
 
 impl<const D: usize> Drawn<D> {
     /// Reads files and draws shapes.
-    ///
-    /// # Errors
-    /// If a file cannot be read or a shape is refused; the message points at the key.
     pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
         let mut drawn = Drawn::default();
         let mut pieces = 0;
