@@ -90,28 +90,6 @@ impl Findings {
     }
 }
 
-impl Share {
-    fn new<const D: usize>(share: &TermShare<D>, kinds: &[(String, &str)]) -> Self {
-        let kind = kinds.iter().find(|(name, _)| *name == share.name);
-        Share {
-            term: share.name.clone(),
-            kind: kind.map_or(String::new(), |(_, kind)| kind.to_string()),
-            acceleration: finite(share.rates.acceleration.norm()),
-            of_walls: finite(share.of_walls.acceleration.norm()),
-            density_rate: finite(share.rates.scalar).filter(|r| *r != 0.0),
-        }
-    }
-
-    fn volume_force<const D: usize>(term: &str, a: &Vect<D>) -> Self {
-        Share {
-            term: term.into(),
-            acceleration: finite(a.norm()),
-            of_walls: Some(0.0),
-            ..Share::default()
-        }
-    }
-}
-
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
@@ -141,13 +119,31 @@ pub(crate) fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<us
 /// Terms that act on a particle at the state of the last evaluation, largest first.
 pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
-    let of = |share| Share::new(share, &flow.kinds);
-    let mut shares: Vec<Share> = terms.iter().map(of).collect();
+    let kind = |term: &str| flow.kinds.iter().find(|(name, _)| name == term);
+    let mut shares = Vec::new();
+    for TermShare {
+        name,
+        rates,
+        of_walls,
+    } in &terms
+    {
+        shares.push(Share {
+            term: name.clone(),
+            kind: kind(name).map_or(String::new(), |(_, kind)| kind.to_string()),
+            acceleration: finite(rates.acceleration.norm()),
+            of_walls: finite(of_walls.acceleration.norm()),
+            density_rate: finite(rates.scalar).filter(|r| *r != 0.0),
+        });
+    }
     let world = &flow.world;
-    for (term, a) in [("gravity", &world.gravity), ("driving", &world.driving)] {
-        if a.norm() > 0.0 {
-            shares.push(Share::volume_force(term, a));
-        }
+    let volume_forces = [("gravity", &world.gravity), ("driving", &world.driving)];
+    for (term, a) in volume_forces.into_iter().filter(|(_, a)| a.norm() > 0.0) {
+        shares.push(Share {
+            term: term.into(),
+            acceleration: finite(a.norm()),
+            of_walls: Some(0.0),
+            ..Share::default()
+        });
     }
     let size = |s: &Share| s.acceleration.unwrap_or(f64::INFINITY);
     shares.sort_by(|a, b| size(b).total_cmp(&size(a)));

@@ -10,7 +10,6 @@ use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
 use crate::running::ranked;
 use crate::running::series;
-use crate::running::watches::EnergyWatch;
 use crate::setup::measure_walls;
 use crate::{RunError, Summary};
 
@@ -47,7 +46,7 @@ impl<const D: usize> Model for Running<'_, D> {
                 sums.recall(&gathered);
             }
         }
-        self.energy = EnergyWatch::from_scene(scene, &self.parts.flow, self.counters.energies);
+        self.energy.recall(self.counters.energies);
         self.recall_extrema(start.goes_on());
         Ok(self.counters.books(self.parts.flow.world.time))
     }

@@ -155,7 +155,7 @@ fn ready<'a, const D: usize>(
         tried: (0.0, "none"),
         limits: Vec::new(),
         mach: MachWatch::default(),
-        energy: EnergyWatch::from_scene(scene, &parts.flow, None),
+        energy: EnergyWatch::from_scene(scene, &parts.flow),
         departure: DepartureWatch::default(),
         shares: Vec::new(),
         around: Nearby::NONE,

@@ -8,7 +8,7 @@ use sph_solver::step::guard;
 
 use crate::failure::error::RunError;
 use crate::running::checkpoint;
-use crate::setup::{Assembled, assemble, rehearse};
+use crate::setup::{assemble, rehearse};
 use crate::zones::{Stepper, attach};
 
 impl<const D: usize> Stepper<D> {
@@ -19,11 +19,6 @@ impl<const D: usize> Stepper<D> {
     pub fn new(scene: &Scene) -> Result<Self, RunError> {
         let mut parts = assemble::<D>(scene)?;
         rehearse(scene, &mut parts.flow, &parts.probes)?;
-        Self::over(scene, parts)
-    }
-
-    /// Steps a scene that is assembled already.
-    pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Result<Self, RunError> {
         let zones = attach(scene, &parts)?;
         Ok(Self::from_parts(scene, parts, zones))
     }

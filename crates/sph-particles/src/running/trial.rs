@@ -51,13 +51,13 @@ fn examined_and_tried<const D: usize>(
     budget: Duration,
 ) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
     let (mut examined, assembled) = examine_in::<D>(scene)?;
+    let zones = attach(scene, &assembled)?;
+    examined.zones = zones.sizes();
     if scene.zone.is_empty() {
-        let mut stepper = Stepper::over(scene, assembled)?;
+        let mut stepper = Stepper::from_parts(scene, assembled, zones);
         let tried = timed(scene, &mut stepper, budget);
         return Ok((examined, tried.map_err(Into::into)));
     }
-    let zones = attach(scene, &assembled)?;
-    examined.zones = zones.sizes();
     let mut start = Snapshot::default();
     start.take(&assembled.flow).map_err(SolverError::from)?;
     let none = Coupling::new(assembled.diffused, None, Vec::new());

@@ -48,12 +48,7 @@ pub(crate) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// Of a scene; `so_far` is from the earlier part of a resumed run.
-    pub fn from_scene<const D: usize>(
-        scene: &Scene,
-        flow: &Flow<D>,
-        so_far: Option<[u64; 5]>,
-    ) -> Self {
+    pub fn from_scene<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Self {
         let world = &flow.world;
         let around = |k: usize| world.domain.periodic[k] && world.gravity[k] != 0.0;
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
@@ -68,10 +63,15 @@ impl EnergyWatch {
             || kinds.any(|kind| !OWN.contains(&kind));
         EnergyWatch {
             driven,
-            so_far: so_far.map(|all| all.map(f64::from_bits)),
+            so_far: None,
             share: 0.0,
             warned: false,
         }
+    }
+
+    /// Goes on with the state of the earlier part of a run.
+    pub fn recall(&mut self, so_far: Option<[u64; 5]>) {
+        self.so_far = so_far.map(|all| all.map(f64::from_bits));
     }
 
     /// State for a run that is resumed.

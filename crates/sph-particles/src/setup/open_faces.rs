@@ -192,12 +192,8 @@ fn lift<const D: usize>(
     // Sound goes there and back.
     let time = 2.0 * (high - low).norm() / slowest_sound(laws);
     let (face, fall) = opened.braking(time, scene.run.end)?;
-    let at_reference = laws.iter().map(|law| {
-        let mut pressure = [0.0];
-        law.pressure(&[law.reference().density], &mut pressure);
-        pressure[0]
-    });
-    let background = at_reference.fold(0.0, f64::max);
+    let background = laws.iter().map(|law| law.background());
+    let background = background.fold(0.0, f64::max);
     let tensions = references().map(|r| r.density * r.sound_speed * fall);
     let tension = tensions.fold(0.0, f64::max);
     if background >= tension || !is_full(room, walls, positions) {

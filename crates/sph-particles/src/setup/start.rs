@@ -16,15 +16,12 @@ use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
 
 /// Input of the first state of all particles.
 pub(crate) struct Start<'a, const D: usize> {
-    /// The scene.
     pub scene: &'a Scene,
-    /// Its bodies as shapes.
     pub drawn: &'a Drawn<D>,
     /// Body that a particle comes from, by its number.
     pub body_of: &'a [u32],
     /// Initial fields, by the body's name.
     pub initial: &'a [(String, Box<dyn Solution<D>>)],
-    /// The formulation of density.
     pub formulation: &'a dyn Formulation<D>,
     /// Columns that contributions bring along.
     pub columns: &'a [OwnColumn<D>],
@@ -219,16 +216,8 @@ impl<'a, const D: usize> InitialState<'a, D> {
         match (given, self.body.pressure) {
             (None, Pressure::Zero) => self.law.reference().density,
             // Given pressures count from that of the reference density.
-            _ => self.law.density(pressure + self.background()),
+            _ => self.law.density(pressure + self.law.background()),
         }
-    }
-
-    /// Pressure at the reference density, Pa.
-    fn background(&self) -> f64 {
-        let mut pressure = [0.0];
-        self.law
-            .pressure(&[self.law.reference().density], &mut pressure);
-        pressure[0]
     }
 
     /// Velocity, m/s, at a position.
