@@ -106,7 +106,14 @@ impl<const D: usize> Running<'_, D> {
         let _ = self.gather(false);
         self.look_at_the_bad_state(failure);
         if self.writes() {
-            self.draw_the_bad_state(failure);
+            let out = &self.options.out;
+            let (bad, flow) = (out.join(BAD_STATE), &self.shown().flow);
+            let written = write_everything(flow, &bad).is_ok();
+            failure.bad_state = written.then_some(bad);
+            let particle = failure.findings.particle.as_ref();
+            let place = particle.and_then(|p| self.place(p.number));
+            let title = format!("failed: {}", self.scene.title);
+            failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
         }
         self.go_to_the_last_good_state(failure, books);
         if !self.writes() {
@@ -118,18 +125,6 @@ impl<const D: usize> Running<'_, D> {
         let summary = self.summary(Status::Failed, Some(failure), books)?;
         failure.summary = Some(Box::new(summary.clone()));
         Ok(Some(summary))
-    }
-
-    fn draw_the_bad_state(&self, failure: &mut Failure) {
-        let out = &self.options.out;
-        let bad = out.join(BAD_STATE);
-        let flow = &self.shown().flow;
-        let written = write_everything(flow, &bad).is_ok();
-        failure.bad_state = written.then_some(bad);
-        let number = failure.findings.particle.as_ref().map(|p| p.number);
-        let place = number.and_then(|n| self.place(n));
-        let title = format!("failed: {}", self.scene.title);
-        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
     }
 
     /// The particle, its place, and the terms that acted on it if the bad state was evaluated.
@@ -145,12 +140,17 @@ impl<const D: usize> Running<'_, D> {
         let phase = free.get(fields::PHASE).map_or(0, |p| p[k] as usize);
         let body = self.parts.body_of.get(number as usize).copied();
         let body = body.and_then(|b| self.scene.body.keys().nth(b as usize));
-        let name = |n: Option<&String>| n.cloned().unwrap_or_default();
         failure.findings.particle = Some(Suspect {
             number,
             named,
-            phase: name(self.scene.phase.keys().nth(phase)),
-            body: name(body),
+            phase: self
+                .scene
+                .phase
+                .keys()
+                .nth(phase)
+                .cloned()
+                .unwrap_or_default(),
+            body: body.cloned().unwrap_or_default(),
             before: None,
             after: sighting(flow, k),
         });

@@ -74,6 +74,19 @@ impl<const D: usize> Balance<D> {
         }
     }
 
+    /// Name, unit and value of its columns in the series, besides those of the momentum.
+    pub fn columns(&self) -> [(&'static str, &'static str, f64); 6] {
+        let [least, largest] = self.density_range;
+        [
+            ("kinetic_energy", "J", self.kinetic),
+            ("potential_energy", "J", self.potential),
+            ("internal_energy", "J", self.internal),
+            ("largest_speed", "m/s", self.fastest),
+            ("least_density_ratio", "1", least),
+            ("largest_density_ratio", "1", largest),
+        ]
+    }
+
     /// Kinetic, potential and internal energy together, J.
     pub fn energy(&self) -> f64 {
         self.kinetic + self.potential + self.internal

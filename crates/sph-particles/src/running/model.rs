@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use sph_core::StepError;
+use sph_neighbours::decomposition::PartError;
 use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
 
 use crate::running::checkpoint::begin;
@@ -125,7 +126,15 @@ impl<const D: usize> Model for Running<'_, D> {
 
     fn agree(&mut self, wish: Poll<RunError>) -> Result<bool, RunError> {
         match wish {
-            Poll::Written(written) => self.all_have_written(written).map(|()| false),
+            // The run ends on all ranks if one could not write.
+            Poll::Written(written) => match &mut self.parts.flow.parts {
+                None => written.map(|()| false),
+                Some(parts) => match parts.link.confirm(written.is_err()) {
+                    Err(PartError::Elsewhere) if written.is_err() => written.map(|()| false),
+                    Err(other) => Err(StepError::from(other).into()),
+                    Ok(()) => Ok(false),
+                },
+            },
             Poll::Stop(stop) => {
                 let any = self.parts.flow.any_rank(stop);
                 any.map_err(|cause| self.failed(cause))

@@ -218,21 +218,6 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Ends the run on all ranks if one could not write.
-    pub(crate) fn all_have_written(
-        &mut self,
-        written: Result<(), RunError>,
-    ) -> Result<(), RunError> {
-        let Some(parts) = &mut self.parts.flow.parts else {
-            return written;
-        };
-        match parts.link.confirm(written.is_err()) {
-            Err(PartError::Elsewhere) if written.is_err() => written,
-            Err(other) => Err(StepError::from(other).into()),
-            Ok(()) => Ok(()),
-        }
-    }
-
     /// Informs the other ranks of a failure; returns the cause of the first rank that has one.
     pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {

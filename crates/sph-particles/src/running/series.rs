@@ -31,14 +31,7 @@ pub fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(Stri
     for axis in &["x", "y", "z"][..D] {
         add(format!("momentum.{axis}"), "kg m/s");
     }
-    for (name, unit) in [
-        ("kinetic_energy", "J"),
-        ("potential_energy", "J"),
-        ("internal_energy", "J"),
-        ("largest_speed", "m/s"),
-        ("least_density_ratio", "1"),
-        ("largest_density_ratio", "1"),
-    ] {
+    for (name, unit, _) in Balance::<D>::zero().columns() {
         add(name.into(), unit);
     }
     for label in left {
@@ -78,13 +71,7 @@ impl Extrema {
         let balance = Balance::from_flow(flow)?;
         let mut row = vec![flow.world.time, dt];
         row.extend(balance.momentum.iter());
-        row.extend([
-            balance.kinetic,
-            balance.potential,
-            balance.internal,
-            balance.fastest,
-        ]);
-        row.extend(balance.density_range);
+        row.extend(balance.columns().map(|(.., value)| value));
         for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }

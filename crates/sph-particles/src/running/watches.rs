@@ -8,7 +8,7 @@
 
 use std::collections::BTreeSet;
 
-use sph_core::{StepError, Vect};
+use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::step::WALL_MOTION;
 use sph_solver::{Flow, defaults};
@@ -191,12 +191,11 @@ impl DepartureWatch {
             let points = &world.walls.points;
             let points = points.position.iter().zip(&points.wall);
             let own = points.filter(|(_, w)| world.walls.names[**w as usize] == *name);
-            let outside = |x: &Vect<D>| !world.domain.contains(x);
-            let mut own = own.map(|(x, _)| outside(x)).peekable();
-            if own.peek().is_none() {
+            let outside: Vec<bool> = own.map(|(x, _)| !world.domain.contains(x)).collect();
+            if outside.is_empty() {
                 continue;
             }
-            let (some, all) = own.fold((false, true), |(some, all), x| (some || x, all && x));
+            let [some, all] = [outside.contains(&true), !outside.contains(&false)];
             if all && !wall.mover.is_empty() && self.gone.is_none() {
                 self.gone = Some((name.clone(), world.time));
             }

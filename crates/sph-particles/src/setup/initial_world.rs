@@ -2,9 +2,9 @@
 
 use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup, WallSpec};
 use sph_contribution::Plugins;
-use sph_core::Store;
 use sph_core::fields::SCALE;
 use sph_core::plausible::Quantity;
+use sph_core::{Store, comma_list};
 use sph_kernels::Kernel;
 use sph_multiphase::Formulation;
 use sph_neighbours::{WallSet, World};
@@ -22,13 +22,11 @@ use crate::setup::share::Share;
 pub(crate) struct InitialWorld<const D: usize> {
     /// Without columns.
     pub world: World<D>,
-    /// The walls, if there are any.
     pub walls: Option<Box<dyn Wall<D>>>,
     /// Places and bodies of the particles.
     pub placed: PlacedParticles<D>,
     /// Walls behind which fluid can get.
     pub leaks: Vec<Leak<D>>,
-    /// Remarks.
     pub warnings: Vec<String>,
 }
 
@@ -60,8 +58,8 @@ impl<const D: usize> InitialWorld<D> {
         let mut warnings = scene.remarks.clone();
         if let Some(walls) = &mut choices.walls {
             check_scaling(scene, &**walls, &*choices.formulation)?;
-            let shape = &*choices.kernel;
-            world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, &world)?;
+            let kernel = &*choices.kernel;
+            world.walls = build_walls(scene, &drawn.walls, &mut **walls, kernel, &world)?;
             warnings.extend(walls.warnings());
         }
         let placed = place(scene, &drawn.regions, choices.walls.as_deref());
@@ -72,10 +70,15 @@ impl<const D: usize> InitialWorld<D> {
             ends.map_err(|e| wall_problem(scene, &e))?;
             warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
-        let elements = match world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
-            true => with_elements(scene, drawn, &world, choices),
-            false => None,
-        };
+        let mut elements = None;
+        if world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
+            // As the default treatment cuts the walls, for a treatment without elements; nothing where it refuses them.
+            let plugins = Plugins::new(Vec::new(), Vec::new());
+            let walls = plugins.one::<D, WallEntry>();
+            elements = walls.and_then(|mut walls| {
+                build_walls(scene, &drawn.walls, &mut *walls, &*choices.kernel, &world).ok()
+            });
+        }
         let skins = elements.as_ref().unwrap_or(&world.walls);
         let leaks = leaks(scene, &world, skins, &placed.positions);
         warnings.extend(leaks.iter().map(|leak| leak.text.clone()));
@@ -87,18 +90,6 @@ impl<const D: usize> InitialWorld<D> {
             warnings,
         })
     }
-}
-
-/// The walls as the default treatment cuts them into elements, for a treatment that has none; nothing where it refuses them.
-fn with_elements<const D: usize>(
-    scene: &Scene,
-    drawn: &Drawn<D>,
-    world: &World<D>,
-    choices: &Choices<D>,
-) -> Option<WallSet<D>> {
-    let nothing_named = Plugins::new(Vec::new(), Vec::new());
-    let mut walls = nothing_named.one::<D, WallEntry>()?;
-    build_walls(scene, &drawn.walls, &mut *walls, &*choices.kernel, world).ok()
 }
 
 /// A box with a kernel and nothing in it.
@@ -194,19 +185,17 @@ fn thin_walls<const D: usize>(
     thin: Vec<ThinWall<D>>,
 ) -> Result<Vec<String>, SolverError> {
     let told = |thin: &ThinWall<D>, what: &str| {
-        let at: Vec<String> = thin.place.iter().map(|x| format!("{x:.4}")).collect();
+        let at = comma_list(thin.place.iter().map(|x| format!("{x:.4}")));
         // On the safe side of rounding.
         let (least, spacing) = (1.01 * thin.least, 0.99 * thin.spacing);
         format!(
-            "the wall is {:.2e} m thick near ({}), and {what} through it: make it {least:.2e} m thick or more, or \
+            "the wall is {:.2e} m thick near ({at}), and {what} through it: make it {least:.2e} m thick or more, or \
              `numerics.spacing` {spacing:.2e} m or less",
-            thin.thickness,
-            at.join(", ")
+            thin.thickness
         )
     };
     if let Some(thin) = thin.iter().find(|thin| thin.wet) {
-        let what = "the fluid on its two sides would feel each other";
-        let why = told(thin, what);
+        let why = told(thin, "the fluid on its two sides would feel each other");
         return Err(SolverError::at(format!("wall.{}", thin.wall), why));
     }
     let what = "fluid on its two sides would feel each other";

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::place_cells::PlaceCells;
-use sph_core::{SceneProblem, Vect};
+use sph_core::{SceneProblem, Vect, comma_list};
 use sph_scene::{Body, BodyParticles, Offset, Region, Scene, disturb, fill};
 
 /// A particle nearer to a wall than this share of a spacing is left out.
@@ -12,11 +12,9 @@ const TOO_NEAR: f64 = 0.4;
 /// Positions with the number of their body, in the order of identities.
 #[derive(Default)]
 pub struct PlacedParticles<const D: usize> {
-    /// Positions, m.
     pub positions: Vec<Vect<D>>,
     /// Number of the body, in the scene's order of names.
     pub body: Vec<u32>,
-    /// Remarks.
     pub warnings: Vec<String>,
 }
 
@@ -202,7 +200,7 @@ fn through_a_wall<const D: usize>(
     walls: &dyn Wall<D>,
     spacing: f64,
 ) -> SceneProblem {
-    let at: Vec<String> = x.iter().map(|c| format!("{c:.6}")).collect();
+    let at = comma_list(x.iter().map(|c| format!("{c:.6}")));
     let named = nearest(x, walls, spacing);
     let wall = named.map_or(String::from("the walls"), |name| format!("wall `{name}`"));
     let side = match D {
@@ -210,9 +208,8 @@ fn through_a_wall<const D: usize>(
         _ => "the normals of every wall must point into the fluid",
     };
     let why = format!(
-        "the body reaches through {wall}: ({}) is behind it; {side}. `clip = true` keeps \
-         only what is in front of the walls",
-        at.join(", ")
+        "the body reaches through {wall}: ({at}) is behind it; {side}. `clip = true` keeps \
+         only what is in front of the walls"
     );
     SceneProblem::new(format!("body.{body}"), why)
 }

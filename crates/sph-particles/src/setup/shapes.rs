@@ -51,7 +51,13 @@ impl<const D: usize> Drawn<D> {
         }
         for (name, wall) in &scene.wall {
             let place = format!("wall.{name}");
-            let mut motion = motion_of::<D>(wall, &place, scene.run.end)?;
+            let mut motion = match &wall.motion {
+                None => RigidMotion::default(),
+                Some(motion) => match &motion.levels {
+                    Some(levels) => levels_of(levels, &format!("{place}.motion.levels"))?,
+                    None => rigid_motion(motion, &format!("{place}.motion"), scene.run.end)?,
+                },
+            };
             motion.bed = bed_of(scene, name, wall, &mut beds);
             let condition = match wall.condition {
                 SlipCondition::NoSlip => WallCondition::NoSlip,
@@ -197,20 +203,6 @@ fn bed_of(
         })
     });
     Some(erodible.clone())
-}
-
-fn motion_of<const D: usize>(
-    wall: &sph_scene::Wall,
-    place: &str,
-    end: f64,
-) -> Result<RigidMotion<D>, SolverError> {
-    let Some(motion) = &wall.motion else {
-        return Ok(RigidMotion::default());
-    };
-    if let Some(levels) = &motion.levels {
-        return levels_of(levels, &format!("{place}.motion.levels"));
-    }
-    rigid_motion(motion, &format!("{place}.motion"), end)
 }
 
 /// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene, `end` the end of the run,

@@ -1,7 +1,7 @@
 //! Remarks on the soils of a scene before they move.
 
 use sph_core::place_cells::PlaceCells;
-use sph_core::{Vect, fields};
+use sph_core::{Vect, comma_list, fields};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_solver::{Flow, SolverError};
@@ -106,11 +106,10 @@ fn hanging<const D: usize>(
     let hang = |k: &usize| walls.clearance(&position[*k], reach).is_none() && !beneath(*k);
     let hanging: Vec<usize> = grains.filter(hang).collect();
     hanging.first().map(|k| {
-        let place: Vec<String> = position[*k].iter().map(|x| format!("{x:.4}")).collect();
+        let place = comma_list(position[*k].iter().map(|x| format!("{x:.4}")));
         format!(
-            "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({}): the bed will fall",
-            hanging.len(),
-            place.join(", ")
+            "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({place}): the bed will fall",
+            hanging.len()
         )
     })
 }
