@@ -144,18 +144,14 @@ impl<const D: usize> Running<'_, D> {
     /// Adds remarks of hooks, on particles behind walls and on speeds near that of sound.
     fn say_what_is_odd(&self, summary: &mut Summary) {
         let flow = &self.shown().flow;
-        let Summary {
-            warnings,
-            advice,
-            escaped,
-            ..
-        } = summary;
+        let escaped = summary.escaped;
+        let (warnings, advice) = (&mut summary.warnings, &mut summary.advice);
         let reports: Vec<_> = flow.reports().collect();
         advice.extend(reports.iter().flat_map(|r| r.advice.clone()));
         if flow.world.free.is_empty() {
             warnings.push("all particles have left: the scene is empty at the end".into());
         }
-        if *escaped > 0 {
+        if escaped > 0 {
             warnings.push(format!("{escaped} particles are behind a wall at the end"));
         }
         let border = flow.left().skip(flow.outlets.labels().len());

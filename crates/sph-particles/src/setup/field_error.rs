@@ -7,11 +7,8 @@ use sph_scene::{Norm, Reference, Scene};
 
 /// A field and its exact values, `components` numbers per particle.
 pub struct Compared {
-    /// Values of the field.
     pub values: Vec<f64>,
-    /// Values of the solution.
     pub exact: Vec<f64>,
-    /// Numbers per particle.
     pub components: usize,
 }
 

@@ -23,7 +23,6 @@ pub(crate) struct InitialWorld<const D: usize> {
     /// Without columns.
     pub world: World<D>,
     pub walls: Option<Box<dyn Wall<D>>>,
-    /// Places and bodies of the particles.
     pub placed: PlacedParticles<D>,
     /// Walls behind which fluid can get.
     pub leaks: Vec<Leak<D>>,
