@@ -30,6 +30,8 @@ pub struct Failure {
     pub pictures: Vec<PathBuf>,
 }
 
+pub(crate) type Result<T, E = RunError> = std::result::Result<T, E>;
+
 /// Anything that keeps a scene from its result.
 #[derive(Debug, Error)]
 #[non_exhaustive]

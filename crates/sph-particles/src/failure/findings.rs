@@ -95,7 +95,7 @@ fn finite(x: f64) -> Option<f64> {
 }
 
 /// The index of the particle that a failed step names, or else of the one with the largest acceleration.
-pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Option<(usize, bool)> {
+pub fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Option<(usize, bool)> {
     if let StepError::Bad { particle, .. } = cause {
         return Some((place_of(flow, *particle)?, true));
     }
@@ -111,13 +111,13 @@ pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Opti
 }
 
 /// The present place of the particle of a number.
-pub(crate) fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
+pub fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
     let identity = flow.world.free.get(fields::IDENTITY).ok()?;
     identity.iter().position(|i| *i == number)
 }
 
 /// Terms that act on a particle at the state of the last evaluation, largest first.
-pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
+pub fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
     let kind = |term: &str| flow.kinds.iter().find(|(name, _)| name == term);
     let mut shares = Vec::new();
@@ -151,7 +151,7 @@ pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<
 }
 
 /// A particle as it is now.
-pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
+pub fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
     let world = &flow.world;
     let position = world.free.get(fields::POSITION).ok()?;
     let velocity = world.free.get(fields::VELOCITY).ok()?;
@@ -181,7 +181,7 @@ pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Optio
 }
 
 /// Report of a failed step.
-pub(crate) fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
+pub fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
     let bare = |quantity: &str, reason: String| Trouble {
         time,
         step,

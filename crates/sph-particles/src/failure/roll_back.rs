@@ -6,6 +6,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_run::{BAD_STATE, CHECKPOINT, RunCounters, Status, Watch};
 
 use crate::failure::bad_pictures;
+use crate::failure::error::Result;
 use crate::failure::findings::{
     Findings, Suspect, place_of, shares_on, sighting, suspect, trouble,
 };
@@ -24,11 +25,7 @@ impl<const D: usize> Running<'_, D> {
     ///
     /// # Errors
     /// If there is no such state, or there were too many tries.
-    pub(crate) fn go_back(
-        &mut self,
-        cause: StepError,
-        observer: &mut Watch<'_>,
-    ) -> Result<(), RunError> {
+    pub fn go_back(&mut self, cause: StepError, observer: &mut Watch<'_>) -> Result<()> {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         self.departure.failed(&cause);
@@ -75,7 +72,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// A run that ends here, of which no more is known than why.
-    pub(crate) fn failed(&mut self, cause: StepError) -> RunError {
+    pub fn failed(&mut self, cause: StepError) -> RunError {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         let (time, step) = (self.parts.flow.world.time, self.counters.steps);
@@ -97,11 +94,11 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Finds and writes the evidence of a failed run.
-    pub(crate) fn find_out(
+    pub fn find_out(
         &mut self,
         failure: &mut Failure,
         books: &RunCounters,
-    ) -> Result<Option<Summary>, RunError> {
+    ) -> Result<Option<Summary>> {
         // The bad state, as far as it can be had.
         let _ = self.gather(false);
         self.look_at_the_bad_state(failure);

@@ -41,7 +41,7 @@ pub struct Balance<const D: usize> {
 }
 
 impl<const D: usize> Balance<D> {
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         Balance {
             mass: 0.0,
             momentum: Vect::zeros(),

@@ -7,7 +7,7 @@ use std::path::Path;
 use sph_io::{Plot, Series, read_table};
 use sph_scene::{Norm, Scene};
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::results::references::measured;
 use crate::setup::reference_series;
 
@@ -21,7 +21,7 @@ const LONGEST: usize = 40;
 const BEYOND: f64 = 0.05;
 
 /// A picture of every probe beside its reference, `plots/NAME.png`.
-pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
+pub fn plots(scene: &Scene, folder: &Path) -> Result<()> {
     let compared = scene.reference.iter().filter_map(|(name, r)| {
         let (probe, path) = r.probe.as_ref().zip(r.path.as_ref())?;
         Some((name, r, probe, path))

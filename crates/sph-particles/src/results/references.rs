@@ -9,7 +9,7 @@ use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 use sph_solver::Flow;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::results::summary::ErrorEntry;
 use crate::setup::field_error::Compared;
 use crate::setup::{field_error, reference_series};
@@ -23,7 +23,7 @@ pub fn errors<const D: usize>(
     solutions: &Solutions<D>,
     series: &Path,
     warnings: &mut Vec<String>,
-) -> Result<BTreeMap<String, ErrorEntry>, RunError> {
+) -> Result<BTreeMap<String, ErrorEntry>> {
     let mut errors = BTreeMap::new();
     let in_series = |r: &Reference| r.probe.is_some() || r.norm() == Norm::L2Mean;
     let series = match scene.reference.values().any(in_series) {
@@ -57,7 +57,7 @@ pub fn errors<const D: usize>(
 }
 
 /// Times and values of a probe in the series, smoothed where its reference is.
-pub(crate) fn measured<'t>(
+pub fn measured<'t>(
     series: &'t Table,
     reference: &Reference,
     probe: &str,

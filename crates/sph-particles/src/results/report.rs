@@ -6,7 +6,7 @@ use std::path::Path;
 use sph_run::{RunCounters, SERIES, SUMMARY, Status};
 use sph_solver::OutletTotals;
 
-use crate::failure::error::{Failure, RunError};
+use crate::failure::error::{Failure, Result};
 use crate::results::advice;
 use crate::results::balance::{Balance, FAST};
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Summary};
@@ -17,12 +17,12 @@ use crate::setup::Memory;
 
 impl<const D: usize> Running<'_, D> {
     /// Content of `summary.json`.
-    pub(crate) fn summary(
+    pub fn summary(
         &mut self,
         status: Status,
         failure: Option<&Failure>,
         books: &RunCounters,
-    ) -> Result<Summary, RunError> {
+    ) -> Result<Summary> {
         let flow = &self.shown().flow;
         let world = &flow.world;
         let mut warnings = self.parts.warnings.clone();
@@ -107,10 +107,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Errors against references, whose pictures are drawn, too.
-    fn compare(
-        &self,
-        warnings: &mut Vec<String>,
-    ) -> Result<BTreeMap<String, ErrorEntry>, RunError> {
+    fn compare(&self, warnings: &mut Vec<String>) -> Result<BTreeMap<String, ErrorEntry>> {
         let (scene, out) = (self.scene, &self.options.out);
         let (flow, solutions) = (&self.shown().flow, &self.shown().solutions);
         let series = out.join(SERIES);

@@ -65,7 +65,7 @@ const ROUNDING: f64 = 1e-9;
 
 impl Counters {
     /// Counts of the driver, at a time (s).
-    pub(crate) fn books(&self, time: f64) -> RunCounters {
+    pub fn books(&self, time: f64) -> RunCounters {
         RunCounters {
             time,
             rows: self.rows,
@@ -81,7 +81,7 @@ impl Counters {
     }
 
     /// Takes over the counts of the driver.
-    pub(crate) fn take(&mut self, books: &RunCounters) {
+    pub fn take(&mut self, books: &RunCounters) {
         self.rows = books.rows;
         self.last_row = books.last_row.map(f64::to_bits);
         self.series_position = books.series;
@@ -93,7 +93,7 @@ impl Counters {
     }
 
     /// Those of a run that begins.
-    pub(crate) fn begin() -> Self {
+    pub fn begin() -> Self {
         Counters {
             step_scale: 1f64.to_bits(),
             ..Counters::default()
@@ -104,7 +104,7 @@ impl Counters {
     ///
     /// A checkpoint with right checksums may be of any origin. Counts that decide the next work must fit the time;
     /// others need only be such that counting on is possible.
-    pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
+    pub fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
         let scale = f64::from_bits(self.step_scale);
         if !(scale > 0.0 && scale <= 1.0) {
             return Some(format!("its `step_scale` is {scale}, not between 0 and 1"));
@@ -168,7 +168,7 @@ impl Counters {
     }
 
     /// Counts in intervals of the scene, for a scene whose intervals may be others than before.
-    pub(crate) fn recount(&mut self, scene: &Scene, time: f64) {
+    pub fn recount(&mut self, scene: &Scene, time: f64) {
         if let Some(last) = self.last_row.map(f64::from_bits) {
             self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
         }

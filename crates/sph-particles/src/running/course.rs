@@ -58,7 +58,7 @@ pub(crate) struct DerivedState {
 
 impl<const D: usize> Running<'_, D> {
     /// True if this process writes.
-    pub(crate) fn writes(&self) -> bool {
+    pub fn writes(&self) -> bool {
         self.ranks.as_ref().is_none_or(|ranks| ranks.rank() == 0)
     }
 }

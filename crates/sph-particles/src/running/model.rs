@@ -6,6 +6,7 @@ use sph_core::StepError;
 use sph_neighbours::decomposition::PartError;
 use sph_run::{Frames, Model, ModelTime, Poll, RunCounters, Start, Status, Watch};
 
+use crate::failure::error::Result;
 use crate::running::checkpoint::begin;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
@@ -23,7 +24,7 @@ impl<const D: usize> Model for Running<'_, D> {
         start: &Start,
         own: &Path,
         observer: &mut Watch<'_>,
-    ) -> Result<RunCounters, RunError> {
+    ) -> Result<RunCounters> {
         let (scene, identity) = (self.scene, &self.options.identity);
         let flow = &mut self.parts.flow;
         self.counters = begin(scene, identity, start, own, flow, observer)?;
@@ -53,7 +54,7 @@ impl<const D: usize> Model for Running<'_, D> {
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime, RunError> {
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<ModelTime> {
         self.judge()?;
         let ready = |running: &Self| limit <= running.parts.flow.world.time;
         let mut done = ready(self);
@@ -85,7 +86,7 @@ impl<const D: usize> Model for Running<'_, D> {
         series::columns(shown.flow.outlets.labels(), &shown.probes)
     }
 
-    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         self.known.written = true;
         self.gather(self.looks_around())?;
         // On several ranks all measure together.
@@ -101,11 +102,7 @@ impl<const D: usize> Model for Running<'_, D> {
         }
     }
 
-    fn show(
-        &mut self,
-        frames: Option<&mut Frames>,
-        observer: &mut Watch<'_>,
-    ) -> Result<(), RunError> {
+    fn show(&mut self, frames: Option<&mut Frames>, observer: &mut Watch<'_>) -> Result<()> {
         self.known.written = true;
         self.gather(self.looks_around() || shows_depths(self.scene))?;
         if self.scene.output.vtk {
@@ -118,13 +115,13 @@ impl<const D: usize> Model for Running<'_, D> {
         Ok(())
     }
 
-    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), RunError> {
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
         self.known.written = true;
         self.gather(false)?;
         self.save_gathered(books, own)
     }
 
-    fn agree(&mut self, wish: Poll<RunError>) -> Result<bool, RunError> {
+    fn agree(&mut self, wish: Poll<RunError>) -> Result<bool> {
         match wish {
             // The run ends on all ranks if one could not write.
             Poll::Written(written) => match &mut self.parts.flow.parts {
@@ -147,7 +144,7 @@ impl<const D: usize> Model for Running<'_, D> {
         ended: Result<Status, &mut RunError>,
         books: &RunCounters,
         _: &mut Watch<'_>,
-    ) -> Result<Option<Summary>, RunError> {
+    ) -> Result<Option<Summary>> {
         match ended {
             Err(RunError::Failed(failure)) => self.find_out(failure, books),
             Err(_) => Ok(None),
@@ -178,7 +175,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Ends a run whose state, as it was when something of it was written, is none of a flow that the scene means.
-    fn judge(&mut self) -> Result<(), RunError> {
+    fn judge(&mut self) -> Result<()> {
         if !self.known.evaluated {
             return Ok(());
         }

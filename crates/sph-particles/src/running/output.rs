@@ -10,14 +10,14 @@ use sph_run::{Frames, Outlay};
 use sph_scene::{Scene, given};
 use sph_solver::Flow;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
 use crate::setup::Probes;
 use crate::zones::Coupling;
 
 /// True if outputs show how far particles are from the surface, which is found from lists and contacts.
-pub(crate) fn shows_depths(scene: &Scene) -> bool {
+pub fn shows_depths(scene: &Scene) -> bool {
     let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
     shown.any(|name| name == SURFACE_DISTANCE.name)
 }
@@ -30,7 +30,7 @@ pub(crate) struct Outputs<'a> {
 }
 
 /// The files of a scene's outputs.
-pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
+pub fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
     let curves = || probes.iter().filter_map(|(_, p)| p.as_curves());
     let drawn = curves().any(|c| c.drawn_column().is_some());
     let pictures = drawn || !scene.output.picture.is_empty();
@@ -53,7 +53,7 @@ impl Outputs<'_> {
         probes: &Probes<D>,
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
-    ) -> Result<Vec<String>, RunError> {
+    ) -> Result<Vec<String>> {
         let mut remarks = Vec::new();
         let points = points(flow)?;
         // No column: only an output reads it.
@@ -182,7 +182,7 @@ impl Outputs<'_> {
         (points, depths): (&[[f64; 3]], &[f64]),
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
-    ) -> Result<(), RunError> {
+    ) -> Result<()> {
         if !frames.lists() {
             return Ok(());
         }
@@ -207,7 +207,7 @@ impl Outputs<'_> {
 }
 
 /// A frame of all columns, for the state in which a run failed.
-pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), RunError> {
+pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<()> {
     let points = points(flow)?;
     let piece = particles(&flow.world.free, &points, |_| true);
     sph_io::write_vtu(path, &piece, flow.world.time)?;
@@ -222,7 +222,7 @@ fn finest<const D: usize>(
     flow: &Flow<D>,
     zones: &Coupling<D>,
     name: &str,
-) -> Result<Option<Spots>, RunError> {
+) -> Result<Option<Spots>> {
     if zones.levels.is_empty() {
         return Ok(None);
     }

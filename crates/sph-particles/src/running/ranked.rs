@@ -10,7 +10,7 @@ use sph_neighbours::{Nearby, WallSet};
 use sph_run::{Identity, RunOptions, Start};
 use sph_scene::Scene;
 
-use crate::failure::error::RunError;
+use crate::failure::error::{Result, RunError};
 use crate::results::summary::RankShare;
 use crate::running::checkpoint::begin;
 use crate::running::counters::Counters;
@@ -19,7 +19,7 @@ use crate::running::output::shows_depths;
 use crate::setup::{Assembled, Memory, Share, assembled};
 
 /// The part that a process assembles: on ranks only where particles settle first does each hold the whole for a while.
-pub(crate) fn share<const D: usize>(
+pub fn share<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
     ranks: Option<&Arc<dyn Transport>>,
@@ -34,12 +34,12 @@ pub(crate) fn share<const D: usize>(
 
 /// Columns for the whole at the first of several ranks, which has a part: among the walls of this, without lists and contacts,
 /// but where neighbours are searched in it.
-pub(crate) fn columns_of_all<const D: usize>(
+pub fn columns_of_all<const D: usize>(
     scene: &Scene,
     (identity, start, own): (&Identity, &Start, &Path),
     parts: &mut Assembled<D>,
     counters: &Counters,
-) -> Result<Assembled<D>, RunError> {
+) -> Result<Assembled<D>> {
     if looks_around(scene, parts) {
         let mut all = assembled::<D>(scene, Share::Blank)?;
         begin(scene, identity, start, own, &mut all.flow, &mut ())?;
@@ -71,19 +71,19 @@ fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
 
 impl<const D: usize> Running<'_, D> {
     /// The particles that are shown and measured: the whole flow, where this process has it.
-    pub(crate) fn shown(&self) -> &Assembled<D> {
+    pub fn shown(&self) -> &Assembled<D> {
         self.whole.as_ref().unwrap_or(&self.parts)
     }
 
     /// The walls of outputs: its own, or those of this process's part.
-    pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
+    pub fn walls(&self) -> Option<&dyn Wall<D>> {
         let own = self.shown().flow.walls.as_deref();
         own.or(self.parts.flow.walls.as_deref())
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
     /// must call it. Nothing where one process runs all.
-    pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), RunError> {
+    pub fn gather(&mut self, evaluated: bool) -> Result<()> {
         if self.known.gathered.is_some_and(|done| done || !evaluated) {
             return Ok(());
         }
@@ -128,12 +128,12 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// True if a probe needs lists and contacts.
-    pub(crate) fn looks_around(&self) -> bool {
+    pub fn looks_around(&self) -> bool {
         self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }
 
     /// Counts the neighbours of the particles of this process.
-    pub(crate) fn look_around(&mut self) -> Result<(), RunError> {
+    pub fn look_around(&mut self) -> Result<()> {
         let flow = &self.parts.flow;
         let free = &flow.world.free;
         if flow.world.lists.free.len() != free.len() {
@@ -145,7 +145,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Gives the walls of the whole flow the pressures that the ranks found; every rank must call it.
-    pub(crate) fn gather_walls(&mut self) -> Result<(), RunError> {
+    pub fn gather_walls(&mut self) -> Result<()> {
         let flow = &self.parts.flow;
         let Some(parts) = &flow.parts else {
             return Ok(());
@@ -156,7 +156,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Gives the first rank the results of each; every rank must call it.
-    pub(crate) fn share(&mut self) -> Result<(), RunError> {
+    pub fn share(&mut self) -> Result<()> {
         let steps = self.counters.steps.max(1) as f64;
         let flow = &self.parts.flow;
         let Some(parts) = &flow.parts else {
@@ -208,7 +208,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// A cause to end the run that any rank has, which all must call.
-    pub(crate) fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
+    pub fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
         };
@@ -219,7 +219,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Informs the other ranks of a failure; returns the cause of the first rank that has one.
-    pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
+    pub fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,
             Some(parts) => parts.link.share_failure(cause),

@@ -12,6 +12,7 @@ use sph_run::{Opened, RunOptions, Schedule, Start, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
+use crate::failure::error::Result;
 use crate::running::counters::Counters;
 use crate::running::course::{DerivedState, Running};
 use crate::running::next_step::{RECOVERY, next_step, standing_still};
@@ -28,11 +29,7 @@ use crate::{RunError, Summary};
 /// # Errors
 /// A bad scene before anything is written; afterwards a failed step (with checkpoint and
 /// picture of the bad state), or a file that cannot be written.
-pub fn run(
-    scene: &Scene,
-    options: &RunOptions,
-    observer: &mut Watch<'_>,
-) -> Result<Summary, RunError> {
+pub fn run(scene: &Scene, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Summary> {
     let summary = run_with(scene, options, None, observer)?;
     summary.ok_or_else(|| RunError::at("", "there is no summary of the run"))
 }
@@ -48,7 +45,7 @@ pub fn run_part(
     options: &RunOptions,
     ranks: Arc<dyn Transport>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
+) -> Result<Option<Summary>> {
     run_with(scene, options, Some(ranks), observer)
 }
 
@@ -57,7 +54,7 @@ fn run_with(
     options: &RunOptions,
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
+) -> Result<Option<Summary>> {
     on_threads(options.threads, || match scene.dimension {
         3 => run_in::<3>(scene, options, ranks, observer),
         _ => run_in::<2>(scene, options, ranks, observer),
@@ -65,10 +62,7 @@ fn run_with(
 }
 
 /// Results on so many threads; without a number on one for each core.
-pub(crate) fn on_threads<T: Send>(
-    threads: Option<usize>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, RunError> {
+pub fn on_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T> {
     let builder = rayon::ThreadPoolBuilder::new();
     let pool = builder.num_threads(threads.unwrap_or(0)).build();
     let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
@@ -80,7 +74,7 @@ fn run_in<const D: usize>(
     options: &RunOptions,
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
+) -> Result<Option<Summary>> {
     let begun = ready::<D>(scene, options, ranks.clone()).and_then(|mut running| {
         let writes = running.writes();
         let outlay = writes.then(|| outlay(scene, &running.parts.probes));
@@ -119,7 +113,7 @@ fn ready<'a, const D: usize>(
     scene: &'a Scene,
     options: &'a RunOptions,
     ranks: Option<Arc<dyn Transport>>,
-) -> Result<Running<'a, D>, RunError> {
+) -> Result<Running<'a, D>> {
     let share = ranked::share(scene, options, ranks.as_ref());
     let mut parts = assembled::<D>(scene, share)?;
     if !parts.flow.is_blank() {
@@ -174,7 +168,7 @@ fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more
 
 impl<const D: usize> Running<'_, D> {
     /// One step from an evaluated state, which is kept, not beyond `target` (s); its failure, if there is one.
-    pub(crate) fn step(&mut self, target: f64) -> Result<Result<(), StepError>, RunError> {
+    pub fn step(&mut self, target: f64) -> Result<Result<(), StepError>> {
         let time = self.parts.flow.world.time;
         let (dt, limiter) = match self.chosen_step(time, target)? {
             Ok(chosen) => chosen,
@@ -198,7 +192,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(Ok(()))
     }
 
-    pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
+    pub fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
         let bounds = self.scene.numerics.density_bounds;
         let done = self.zones.evaluate(flow);
@@ -217,7 +211,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         time: f64,
         target: f64,
-    ) -> Result<Result<(f64, &'static str), StepError>, RunError> {
+    ) -> Result<Result<(f64, &'static str), StepError>> {
         let mut limits = std::mem::take(&mut self.limits);
         let flow = &mut self.parts.flow;
         flow.step_limits_into(&mut limits)?;
@@ -244,7 +238,7 @@ pub fn run_on_threads(
     options: &RunOptions,
     ranks: usize,
     observer: &mut Watch<'_>,
-) -> Result<Summary, RunError> {
+) -> Result<Summary> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = options.threads.or(Some((cores / ranks).max(1)));
     let options = &options.clone().threads(threads);

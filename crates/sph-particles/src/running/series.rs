@@ -2,7 +2,7 @@
 
 use sph_solver::Flow;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::results::balance::Balance;
 use crate::setup::Probes;
 use crate::zones::Coupling;
@@ -67,7 +67,7 @@ impl Extrema {
         (flow, zones): (&Flow<D>, &Coupling<D>),
         probes: &Probes<D>,
         dt: f64,
-    ) -> Result<(Vec<f64>, Balance<D>), RunError> {
+    ) -> Result<(Vec<f64>, Balance<D>)> {
         let balance = Balance::from_flow(flow)?;
         let mut row = vec![flow.world.time, dt];
         row.extend(balance.momentum.iter());

@@ -6,7 +6,7 @@ use sph_core::{FieldError, Role, StepError, fields};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::checkpoint;
 use crate::setup::{assemble, rehearse};
 use crate::zones::{Stepper, attach};
@@ -16,7 +16,7 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// Every problem of the scene, with its path.
-    pub fn new(scene: &Scene) -> Result<Self, RunError> {
+    pub fn new(scene: &Scene) -> Result<Self> {
         let mut parts = assemble::<D>(scene)?;
         rehearse(scene, &mut parts.flow, &parts.probes)?;
         let zones = attach(scene, &parts)?;
@@ -27,7 +27,7 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// A checkpoint that cannot be read or has other particles.
-    pub fn start_from(&mut self, checkpoint: &Path) -> Result<(), RunError> {
+    pub fn start_from(&mut self, checkpoint: &Path) -> Result<()> {
         self.changed();
         checkpoint::start_from(&mut self.parts.flow, &self.scene, checkpoint)
     }
@@ -36,7 +36,7 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// If a column is missing, or the state is bad.
-    pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>, RunError> {
+    pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>> {
         self.evaluate()?;
         let parts = &mut self.parts;
         rehearse(&self.scene, &mut parts.flow, &parts.probes)?;

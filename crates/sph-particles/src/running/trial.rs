@@ -6,7 +6,7 @@ use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::{Snapshot, SolverError};
 
-use crate::failure::error::RunError;
+use crate::failure::error::{Result, RunError};
 use crate::running::run::on_threads;
 use crate::setup::{Examination, examine_in};
 use crate::zones::{Coupling, Stepper, attach};
@@ -39,7 +39,7 @@ pub fn examine_and_try(
     scene: &Scene,
     threads: usize,
     budget: Duration,
-) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+) -> Result<(Examination, Result<Option<Trial>, RunError>)> {
     on_threads(Some(threads), || match scene.dimension {
         3 => examined_and_tried::<3>(scene, budget),
         _ => examined_and_tried::<2>(scene, budget),
@@ -49,7 +49,7 @@ pub fn examine_and_try(
 fn examined_and_tried<const D: usize>(
     scene: &Scene,
     budget: Duration,
-) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+) -> Result<(Examination, Result<Option<Trial>, RunError>)> {
     let (mut examined, assembled) = examine_in::<D>(scene)?;
     let zones = attach(scene, &assembled)?;
     examined.zones = zones.sizes();

@@ -6,7 +6,7 @@ use std::path::Path;
 use sph_probes::Probe;
 use sph_run::{Frames, RunCounters, Watch};
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
@@ -25,10 +25,7 @@ fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
 impl<const D: usize> Running<'_, D> {
     /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
     /// alone has found. Returns changes of the pictures.
-    pub(crate) fn write_output(
-        &mut self,
-        frames: Option<&mut Frames>,
-    ) -> Result<Vec<String>, RunError> {
+    pub fn write_output(&mut self, frames: Option<&mut Frames>) -> Result<Vec<String>> {
         let parts = self.parts.flow.parts.as_ref();
         let communicator = parts.map(|p| (p.link.transport.rank(), p.link.transport.ranks()));
         let together = self.scene.output.vtk && !shows_depths(self.scene);
@@ -53,7 +50,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// The row of the whole flow.
-    pub(crate) fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+    pub fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         let dt = shown.flow.world.dt;
         let (row, balance) = self
@@ -74,7 +71,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Takes up the extremes in rows of earlier parts of the run.
-    pub(crate) fn recall_extrema(&mut self, goes_on: bool) {
+    pub fn recall_extrema(&mut self, goes_on: bool) {
         let extrema = &mut self.extrema;
         if goes_on {
             let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
@@ -87,7 +84,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    pub(crate) fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
+    pub fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {
             *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
@@ -97,11 +94,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Writes a checkpoint of the state that the first rank has.
-    pub(crate) fn save_gathered(
-        &mut self,
-        books: &RunCounters,
-        own: &Path,
-    ) -> Result<(), RunError> {
+    pub fn save_gathered(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
         if !self.writes() {
             return Ok(());
         }

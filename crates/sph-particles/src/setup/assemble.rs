@@ -69,7 +69,7 @@ pub struct Assembled<const D: usize> {
 ///
 /// # Errors
 /// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
-pub(crate) fn assembled<const D: usize>(
+pub fn assembled<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {

@@ -40,12 +40,12 @@ pub fn height<'a, const D: usize>(
 }
 
 /// Corner number `n` of the 2ᴰ corners of a box.
-pub(crate) fn corner<const D: usize>(low: &Vect<D>, high: &Vect<D>, n: usize) -> Vect<D> {
+pub fn corner<const D: usize>(low: &Vect<D>, high: &Vect<D>, n: usize) -> Vect<D> {
     Vect::from_fn(|k, _| if n >> k & 1 == 0 { low[k] } else { high[k] })
 }
 
 /// Lower and upper corner of the box around places; without any an infinite one that is turned inside out.
-pub(crate) fn box_around<'a, const D: usize>(
+pub fn box_around<'a, const D: usize>(
     places: impl IntoIterator<Item = &'a Vect<D>>,
 ) -> [Vect<D>; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::repeat);

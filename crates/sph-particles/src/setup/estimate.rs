@@ -286,7 +286,7 @@ fn copies<const D: usize>(scene: &Scene, world: &World<D>) -> f64 {
 }
 
 /// Bytes of a particle in a column of `components` numbers each.
-pub(crate) fn bytes(components: usize, values: &Plain<'_>) -> usize {
+pub fn bytes(components: usize, values: &Plain<'_>) -> usize {
     match values {
         Plain::Real(_) => 8 * components,
         Plain::Index(_) => 4,

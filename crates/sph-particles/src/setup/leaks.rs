@@ -24,7 +24,7 @@ pub struct Leak<const D: usize> {
 }
 
 /// All of them, of walls that have elements; the fluid is where the particles are.
-pub(crate) fn leaks<const D: usize>(
+pub fn leaks<const D: usize>(
     scene: &Scene,
     world: &World<D>,
     walls: &WallSet<D>,

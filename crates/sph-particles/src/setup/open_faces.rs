@@ -25,7 +25,7 @@ use crate::setup::sound::slowest_sound;
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.
-pub(crate) fn prepare<const D: usize>(
+pub fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
     choices: &mut Choices<D>,
@@ -82,7 +82,7 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
 ///
 /// # Errors
 /// The law of a face that it does not fit, or before which there is no room.
-pub(crate) fn check<const D: usize>(
+pub fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
     walls: Option<&dyn Wall<D>>,
@@ -123,7 +123,7 @@ pub(crate) fn check<const D: usize>(
 }
 
 /// Joins open faces to the parts; refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
-pub(crate) fn join<const D: usize>(
+pub fn join<const D: usize>(
     scene: &Scene,
     opened: Option<OpenBoundaries<D>>,
     parts: &mut Vec<Part<D>>,

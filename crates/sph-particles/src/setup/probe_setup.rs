@@ -103,7 +103,7 @@ pub fn measure_walls<const D: usize>(
 }
 
 /// Refuses names of fields that no plugin of the scene has.
-pub(crate) fn check_output_fields<const D: usize>(
+pub fn check_output_fields<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,
 ) -> Result<(), SolverError> {

@@ -83,7 +83,7 @@ fn columns_of(reference: &Reference, path: &Path) -> Result<Table, IoError> {
 }
 
 /// The columns of these names, or all of a table.
-pub(crate) fn named_or_all(path: &Path, names: Option<&[String]>) -> Result<Table, IoError> {
+pub fn named_or_all(path: &Path, names: Option<&[String]>) -> Result<Table, IoError> {
     match names {
         Some(names) => {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();

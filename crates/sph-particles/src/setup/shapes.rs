@@ -207,7 +207,7 @@ fn bed_of(
 
 /// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene, `end` the end of the run,
 /// s.
-pub(crate) fn rigid_motion<const D: usize>(
+pub fn rigid_motion<const D: usize>(
     motion: &sph_scene::Motion,
     place: &str,
     end: f64,

@@ -28,14 +28,14 @@ pub(crate) struct Start<'a, const D: usize> {
 }
 
 /// Number of the phase of every body, in the scene's order of names.
-pub(crate) fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
+pub fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
     let of = |body: &sph_scene::Body| scene.phase.keys().position(|p| *p == body.phase);
     let all = scene.body.values();
     all.map(|body| of(body).unwrap_or(0) as u32).collect()
 }
 
 /// Sorts the particles and gives them their initial state; those of a rank's part if this is its `share`.
-pub(crate) fn start<const D: usize>(
+pub fn start<const D: usize>(
     given: &Start<'_, D>,
     share: &Share<D>,
     flow: &mut Flow<D>,

@@ -62,7 +62,7 @@ fn largest_of<const D: usize>(swing: &VariableGravity<D>, end: f64) -> Vect<D> {
 }
 
 /// Σ a_k L_k with the largest entries and the extent of all bodies, m²/s²: its addend to g H.
-pub(crate) fn head<const D: usize>(
+pub fn head<const D: usize>(
     swing: &VariableGravity<D>,
     scene: &Scene,
     regions: &[Region<D>],
