@@ -4,6 +4,7 @@ use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::defaults;
 
+use crate::Failure;
 use crate::failure::findings::{Findings, Share};
 
 /// Remedies of the plugins of a scene for their terms, by kind.
@@ -17,12 +18,8 @@ const LARGE: f64 = 100.0;
 const CLOSE: f64 = 0.3;
 
 /// Remedies: against the quantity first, then against the largest term, then against the step.
-pub fn remedies(
-    scene: &Scene,
-    cause: &StepError,
-    found: &Findings,
-    told: &Remedies,
-) -> Vec<String> {
+pub fn remedies(scene: &Scene, failure: &Failure, told: &Remedies) -> Vec<String> {
+    let (cause, found) = (&failure.cause, &failure.findings);
     let mut all = against_quantity(cause, found);
     if let StepError::Stage { stage, .. } = cause {
         let failed = told.iter().filter(|(name, _)| name == stage);

@@ -210,7 +210,7 @@ impl<const D: usize> Running<'_, D> {
         let files = files.chain(&failure.checkpoint);
         failure.findings.files = files.filter_map(name).collect();
         let told = &self.parts.flow.remedies;
-        let all = remedies(self.scene, &failure.cause, &failure.findings, told);
+        let all = remedies(self.scene, failure, told);
         let leak = self.leak_at(&failure.cause);
         let leak = leak.map(|leak| format!("mend the wall beside the particle, {}", leak.text));
         failure.findings.advice = leak.into_iter().chain(all).collect();

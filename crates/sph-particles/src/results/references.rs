@@ -11,7 +11,7 @@ use sph_solver::Flow;
 
 use crate::failure::error::Result;
 use crate::results::summary::ErrorEntry;
-use crate::setup::field_error::Compared;
+use crate::setup::field_error::beside_solution;
 use crate::setup::{field_error, reference_series};
 
 type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
@@ -108,11 +108,7 @@ fn against_field<const D: usize>(
     let time = flow.world.time;
     let volume = flow.world.free.get(fields::VOLUME);
     let volume = volume.map_err(|e| e.to_string())?;
-    let Compared {
-        values,
-        exact,
-        components,
-    } = Compared::with_solution(&flow.world, field, solution)?;
+    let (values, exact, components) = beside_solution(&flow.world, field, solution)?;
     let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
     let value = match reference.norm() {
         Norm::L2 => norm::l2(&values, &exact, volume, components),

@@ -28,10 +28,9 @@ impl<const D: usize> Model for Running<'_, D> {
         let (scene, identity) = (self.scene, &self.options.identity);
         let flow = &mut self.parts.flow;
         self.counters = begin(scene, identity, start, own, flow, observer)?;
-        match start {
-            Start::Afresh | Start::From(_) => {}
-            Start::Resumed => self.zones.load(own, Some(identity))?,
-            Start::Changed => self.zones.load(own, None)?,
+        if start.goes_on() {
+            let identity = (*start == Start::Resumed).then_some(identity);
+            self.zones.load(own, identity)?;
         }
         if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
             flow.divide(ranks).map_err(StepError::from)?;

@@ -86,7 +86,7 @@ pub fn assembled<const D: usize>(
     let filled = (&room, placed.positions.as_slice(), &laws, &lift);
     let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let (kinematic_viscosities, constant) = kinematic_viscosities(scene, &choices.rheologies);
+    let (kinematic_viscosities, constant) = viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
     let shown = shown(scene, &choices.probes);
     let mut parts = choices.parts;
@@ -281,7 +281,7 @@ fn bind_laws<const D: usize>(
     choices: &Choices<D>,
 ) -> Result<(Laws, Option<VariableGravity<D>>, Lift), SolverError> {
     let swing = variable_gravity::from_scene::<D>(scene)?;
-    let head_of = |swing| variable_gravity::head(swing, scene, &drawn.regions);
+    let head_of = |swing| variable_gravity::head(swing, scene.run.end, &drawn.regions);
     let more = swing.as_ref().map_or(0.0, head_of);
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
     let speeds = sound_speeds(scene, (head + more).sqrt())?;
@@ -300,10 +300,7 @@ fn bind_laws<const D: usize>(
 }
 
 /// η/ρ₀ of every phase, m²/s: the largest, and that of laws with one viscosity.
-fn kinematic_viscosities(
-    scene: &Scene,
-    laws: &[Box<dyn Rheology>],
-) -> (Vec<f64>, Vec<Option<f64>>) {
+fn viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> (Vec<f64>, Vec<Option<f64>>) {
     let laws = scene.phase.values().map(|p| p.density).zip(laws);
     let over = laws.map(|(density, law)| {
         let uniform = law.uniform_viscosity().map(|eta| eta / density);

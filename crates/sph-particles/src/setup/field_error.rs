@@ -5,51 +5,38 @@ use sph_neighbours::World;
 use sph_probes::{Probe, ProbeColumn, Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 
-/// A field and its exact values, `components` numbers per particle.
-pub struct Compared {
-    pub values: Vec<f64>,
-    pub exact: Vec<f64>,
-    pub components: usize,
-}
-
-impl Compared {
-    /// The field at the particles beside the solution.
-    pub fn with_solution<const D: usize>(
-        world: &World<D>,
-        field: &str,
-        solution: &dyn Solution<D>,
-    ) -> Result<Self, String> {
-        let positions = world.free.get(fields::POSITION);
-        let found = world.free.columns().find(|(n, ..)| *n == field);
-        let Some((_, _, _, components, Plain::Real(values))) = found else {
-            return Err(format!(
-                "there is no field `{field}` of real numbers in this scene"
-            ));
-        };
-        let mut exact = Vec::with_capacity(values.len());
-        for x in positions.map_err(|e| e.to_string())? {
-            match field {
-                "velocity" => {
-                    let u: Option<Vect<D>> = solution.velocity(x, world.time);
-                    exact.extend(u.ok_or("the solution has no velocity")?.iter());
-                }
-                "pressure" => {
-                    let p = solution.pressure(x, world.time);
-                    exact.push(p.ok_or("the solution has no pressure")?);
-                }
-                _ => {
-                    let value = solution.scalar(field, x, world.time);
-                    let none = || format!("the solution does not give the field `{field}`");
-                    exact.push(value.ok_or_else(none)?);
-                }
+/// Values of a field at the particles, those of a solution, and how many of them are one particle's.
+pub fn beside_solution<const D: usize>(
+    world: &World<D>,
+    field: &str,
+    solution: &dyn Solution<D>,
+) -> Result<(Vec<f64>, Vec<f64>, usize), String> {
+    let positions = world.free.get(fields::POSITION);
+    let found = world.free.columns().find(|(n, ..)| *n == field);
+    let Some((_, _, _, components, Plain::Real(values))) = found else {
+        return Err(format!(
+            "there is no field `{field}` of real numbers in this scene"
+        ));
+    };
+    let mut exact = Vec::with_capacity(values.len());
+    for x in positions.map_err(|e| e.to_string())? {
+        match field {
+            "velocity" => {
+                let u: Option<Vect<D>> = solution.velocity(x, world.time);
+                exact.extend(u.ok_or("the solution has no velocity")?.iter());
+            }
+            "pressure" => {
+                let p = solution.pressure(x, world.time);
+                exact.push(p.ok_or("the solution has no pressure")?);
+            }
+            _ => {
+                let value = solution.scalar(field, x, world.time);
+                let none = || format!("the solution does not give the field `{field}`");
+                exact.push(value.ok_or_else(none)?);
             }
         }
-        Ok(Compared {
-            values: values.into_owned(),
-            exact,
-            components,
-        })
     }
+    Ok((values.into_owned(), exact, components))
 }
 
 /// √(Σ V|u − e|² / Σ V|e|²) at every row of the series.
@@ -64,11 +51,11 @@ impl<const D: usize> Probe<D> for ErrorProbe<D> {
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
-        let compared = Compared::with_solution(world, &self.field, &*self.solution);
-        let compared = compared.map_err(|why| StepError::stage("references", why))?;
+        let compared = beside_solution(world, &self.field, &*self.solution);
+        let compared = compared.map_err(|why| StepError::stage("references", why));
+        let (values, exact, components) = compared?;
         let volume = world.free.get(fields::VOLUME)?;
-        let (values, exact) = (&compared.values, &compared.exact);
-        Ok(vec![norm::l2(values, exact, volume, compared.components)])
+        Ok(vec![norm::l2(&values, &exact, volume, components)])
     }
 }
 

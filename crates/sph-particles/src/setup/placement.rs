@@ -163,13 +163,9 @@ fn facing_away<const D: usize>(
     Some(SceneProblem::new(format!("body.{body}"), why))
 }
 
-/// The nearest wall, looked for ever farther out.
-fn nearest<'a, const D: usize>(
-    x: &Vect<D>,
-    walls: &'a dyn Wall<D>,
-    spacing: f64,
-) -> Option<&'a str> {
-    let found = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
+/// The nearest wall, looked for within a reach, m, and ever farther out.
+fn nearest<'a, const D: usize>(x: &Vect<D>, walls: &'a dyn Wall<D>, reach: f64) -> Option<&'a str> {
+    let found = (0..12).find_map(|k| walls.clearance(x, reach * f64::from(1 << k)));
     found.map(|(_, name)| name)
 }
 

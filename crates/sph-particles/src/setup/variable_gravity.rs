@@ -61,13 +61,9 @@ fn largest_of<const D: usize>(swing: &VariableGravity<D>, end: f64) -> Vect<D> {
     })
 }
 
-/// Σ a_k L_k with the largest entries and the extent of all bodies, m²/s²: its addend to g H.
-pub fn head<const D: usize>(
-    swing: &VariableGravity<D>,
-    scene: &Scene,
-    regions: &[Region<D>],
-) -> f64 {
-    let largest = largest_of(swing, scene.run.end);
+/// Σ a_k L_k with the largest entries until a time (s) and the extent of all bodies, m²/s²: its addend to g H.
+pub fn head<const D: usize>(swing: &VariableGravity<D>, end: f64, regions: &[Region<D>]) -> f64 {
+    let largest = largest_of(swing, end);
     let corners = regions.iter().map(|region| region.base.bounds());
     let [low, high] = bounds(corners.flat_map(|(low, high)| [low, high]));
     let extent = |k: usize| (high[k] - low[k]).max(0.0);
