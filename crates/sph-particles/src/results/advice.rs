@@ -50,23 +50,19 @@ fn limiter(s: &Summary, remedies: &BTreeMap<String, String>, sound: f64) -> Opti
     let own = *s.dt_limits.get(name)?;
     let others = s.dt_limits.iter().filter(|(n, _)| *n != name);
     let next = others.min_by(|a, b| a.1.total_cmp(b.1));
-    let factor = next.map(|(_, dt)| dt / own);
+    let next = next.map(|(name, dt)| (name, dt / own));
     let room = (name == SOUND).then_some(sound);
-    let vain = factor.is_some_and(|f| f < WORTH) || room.is_some_and(|f| f < ROOMY);
+    let vain = next.is_some_and(|(_, f)| f < WORTH) || room.is_some_and(|f| f < ROOMY);
     if s.steps < FEW_STEPS || vain {
         return None;
     }
-    let then = match (next, factor) {
-        (Some((next, _)), Some(factor)) => format!(
-            "the next bound, `{next}`, is {} times as long",
-            significant(factor)
-        ),
-        _ => "no other bound is in force".to_string(),
+    let then = match next.map(|(next, factor)| (next, significant(factor))) {
+        Some((next, times)) => format!("the next bound, `{next}`, is {times} times as long"),
+        None => "no other bound is in force".to_string(),
     };
-    let room = room.map_or(String::new(), |f| match f.is_finite() {
-        true => format!(": here for a factor of {}", significant(f)),
-        false => String::new(),
-    });
+    let room = room.filter(|f| f.is_finite());
+    let room = room.map(|f| format!(": here for a factor of {}", significant(f)));
+    let room = room.unwrap_or_default();
     let what = match remedies.get(name) {
         Some(remedy) => format!("{remedy}{room}; {then}"),
         None => format!("{then}; a coarser `numerics.spacing` lengthens it"),
@@ -83,7 +79,7 @@ fn stage(s: &Summary) -> Option<String> {
     if seconds.min(s.wall_seconds) < SHORT {
         return None;
     }
-    let share = seconds / all;
+    let share = 100.0 * (seconds / all);
     let what = match name.as_str() {
         "output" => "a longer `output.every` and `output.series_every`, or `output.vtk = false`",
         LISTS_NAME => "a larger `numerics.skin`, so that lists last longer",
@@ -93,8 +89,7 @@ fn stage(s: &Summary) -> Option<String> {
         _ => return None,
     };
     Some(format!(
-        "`{name}` takes {:.0} % of the time: try {what}",
-        100.0 * share
+        "`{name}` takes {share:.0} % of the time: try {what}"
     ))
 }
 

@@ -12,15 +12,12 @@ use sph_solver::Flow;
 use crate::failure::error::Result;
 use crate::results::summary::ErrorEntry;
 use crate::setup::field_error::beside_solution;
-use crate::setup::{field_error, reference_series};
-
-type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
+use crate::setup::{Assembled, field_error, reference_series};
 
 /// Every reference that can be compared; the others become warnings.
 pub fn errors<const D: usize>(
     scene: &Scene,
-    flow: &Flow<D>,
-    solutions: &Solutions<D>,
+    shown: &Assembled<D>,
     series: &Path,
     warnings: &mut Vec<String>,
 ) -> Result<BTreeMap<String, ErrorEntry>> {
@@ -31,7 +28,8 @@ pub fn errors<const D: usize>(
         false => None,
     };
     for (name, reference) in &scene.reference {
-        let solution = solutions.iter().find(|(n, _)| n == name).map(|(_, s)| &**s);
+        let solution = shown.solutions.iter().find(|(n, _)| n == name);
+        let solution = solution.map(|(_, s)| &**s);
         let entry = match (&reference.field, &reference.probe, &series) {
             (Some(_), _, Some(table)) if reference.norm() == Norm::L2Mean => {
                 let times = table.column("time").unwrap_or(&[]);
@@ -39,7 +37,7 @@ pub fn errors<const D: usize>(
                 let values = table.column(&column).ok_or_else(|| absent(&column));
                 values.and_then(|values| averaged(reference, times, values))
             }
-            (Some(field), _, _) => against_field(flow, reference, field, solution),
+            (Some(field), _, _) => against_field(&shown.flow, reference, field, solution),
             (None, Some(probe), Some(table)) => match measured(table, reference, probe) {
                 Some((times, values)) => against_series(reference, times, &values, solution),
                 None => Err(absent(probe)),

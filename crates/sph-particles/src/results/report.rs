@@ -109,9 +109,7 @@ impl<const D: usize> Running<'_, D> {
     /// Errors against references, whose pictures are drawn, too.
     fn compare(&self, warnings: &mut Vec<String>) -> Result<BTreeMap<String, ErrorEntry>> {
         let (scene, out) = (self.scene, &self.options.out);
-        let (flow, solutions) = (&self.shown().flow, &self.shown().solutions);
-        let series = out.join(SERIES);
-        let errors = references::errors(scene, flow, solutions, &series, warnings)?;
+        let errors = references::errors(scene, self.shown(), &out.join(SERIES), warnings)?;
         if let Err(error) = reference_plots::plots(scene, out) {
             // A plot is a convenience: its failure must not cost the result.
             warnings.push(format!("the plots were not written: {error}"));

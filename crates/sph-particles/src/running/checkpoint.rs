@@ -8,7 +8,7 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Inserted, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_neighbours::WallForce;
-use sph_run::{Identity, Start, Watch};
+use sph_run::{CHECKPOINT, Identity, RunOptions, Start, Watch};
 use sph_scene::Scene;
 use sph_solver::Flow;
 use sph_solver::step::Hooked;
@@ -113,16 +113,15 @@ fn refused(path: &Path, reason: impl Into<String>) -> RunError {
 /// Puts the flow where the run begins, and returns the counts until there.
 pub fn begin<const D: usize>(
     scene: &Scene,
-    identity: &Identity,
-    start: &Start,
-    own: &Path,
+    options: &RunOptions,
     flow: &mut Flow<D>,
     observer: &mut Watch<'_>,
 ) -> Result<Counters> {
+    let (start, own) = (&options.start, options.out.join(CHECKPOINT));
     let mut counters = Counters::begin();
     if start.goes_on() {
-        let identity = (*start == Start::Resumed).then_some(identity);
-        counters = load(flow, scene, own, identity)?;
+        let identity = (*start == Start::Resumed).then_some(&options.identity);
+        counters = load(flow, scene, &own, identity)?;
         flow.recount(&counters.left);
         for Hooked { hook, .. } in &mut flow.hooks.all {
             if let Some(counts) = counters.works.remove(&hook.name()) {

@@ -10,7 +10,7 @@ use crate::failure::error::Result;
 use crate::running::checkpoint::begin;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
-use crate::running::ranked;
+use crate::running::ranked::{columns_of_all, looks_around};
 use crate::running::series;
 use crate::setup::measure_walls;
 use crate::{RunError, Summary};
@@ -25,19 +25,18 @@ impl<const D: usize> Model for Running<'_, D> {
         own: &Path,
         observer: &mut Watch<'_>,
     ) -> Result<RunCounters> {
-        let (scene, identity) = (self.scene, &self.options.identity);
+        let (scene, options) = (self.scene, self.options);
         let flow = &mut self.parts.flow;
-        self.counters = begin(scene, identity, start, own, flow, observer)?;
+        self.counters = begin(scene, options, flow, observer)?;
         if start.goes_on() {
-            let identity = (*start == Start::Resumed).then_some(identity);
+            let identity = (*start == Start::Resumed).then_some(&options.identity);
             self.zones.load(own, identity)?;
         }
         if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
             flow.divide(ranks).map_err(StepError::from)?;
         }
         if self.writes() && self.parts.flow.parts.is_some() {
-            let begins = (identity, start, own);
-            let whole = ranked::columns_of_all(scene, begins, &mut self.parts, &self.counters)?;
+            let whole = columns_of_all(scene, options, &mut self.parts, &self.counters)?;
             self.whole = Some(whole);
         }
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
@@ -87,7 +86,7 @@ impl<const D: usize> Model for Running<'_, D> {
 
     fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         self.known.written = true;
-        self.gather(self.looks_around())?;
+        self.gather(looks_around(&self.parts.probes))?;
         // On several ranks all measure together.
         measure_walls(&mut self.parts.flow, &self.parts.probes)?;
         self.zones.measure_walls()?;
@@ -103,7 +102,7 @@ impl<const D: usize> Model for Running<'_, D> {
 
     fn show(&mut self, frames: Option<&mut Frames>, observer: &mut Watch<'_>) -> Result<()> {
         self.known.written = true;
-        self.gather(self.looks_around() || shows_depths(self.scene))?;
+        self.gather(looks_around(&self.parts.probes) || shows_depths(self.scene))?;
         if self.scene.output.vtk {
             self.gather_walls()?;
         }
@@ -148,7 +147,7 @@ impl<const D: usize> Model for Running<'_, D> {
             Err(RunError::Failed(failure)) => self.find_out(failure, books),
             Err(_) => Ok(None),
             Ok(status) => {
-                self.gather(self.looks_around())?;
+                self.gather(looks_around(&self.parts.probes))?;
                 self.look_around()?;
                 self.share()?;
                 match self.writes() {

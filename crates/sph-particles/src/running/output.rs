@@ -4,7 +4,6 @@ use std::path::Path;
 
 use sph_core::fields;
 use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
-use sph_neighbours::World;
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
 use sph_scene::{Scene, given};
@@ -13,7 +12,7 @@ use sph_solver::Flow;
 use crate::failure::error::Result;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
-use crate::setup::Probes;
+use crate::setup::{Assembled, Probes};
 use crate::zones::Coupling;
 
 /// True if outputs show how far particles are from the surface, which is found from lists and contacts.
@@ -23,10 +22,10 @@ pub fn shows_depths(scene: &Scene) -> bool {
 }
 
 /// Fields and pictures of a scene.
-pub(crate) struct Outputs<'a> {
+pub(crate) struct Outputs<'a, const D: usize> {
     pub scene: &'a Scene,
-    /// Pressure of the fluid at rest, Pa; 0 where there is none.
-    pub pressure: f64,
+    pub shown: &'a Assembled<D>,
+    pub zones: &'a Coupling<D>,
 }
 
 /// The files of a scene's outputs.
@@ -44,16 +43,15 @@ pub fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
     }
 }
 
-impl Outputs<'_> {
+impl<const D: usize> Outputs<'_, D> {
     /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
     /// of ranks, where these write frames together. Returns changes of the pictures.
-    pub fn write<const D: usize>(
+    pub fn write(
         &self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        probes: &Probes<D>,
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
     ) -> Result<Vec<String>> {
+        let flow = &self.shown.flow;
         let mut remarks = Vec::new();
         let points = points(flow)?;
         // No column: only an output reads it.
@@ -61,7 +59,7 @@ impl Outputs<'_> {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
-        self.write_frame((flow, zones), (&points, &depths), frames, among)?;
+        self.write_frame(&points, &depths, frames, among)?;
         let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
         for name in &self.scene.output.picture {
             let drawn = match name == SURFACE_DISTANCE.name {
@@ -80,7 +78,7 @@ impl Outputs<'_> {
                 _ => (None, None),
             };
             remarks.extend(told);
-            let finest = finest(flow, zones, name)?;
+            let finest = self.finest(name)?;
             let (points, values, diameters) = match &finest {
                 Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
                 None => (&points[..], &values[..], &[][..]),
@@ -90,11 +88,11 @@ impl Outputs<'_> {
                 walls: &drawn_walls(&flow.world),
                 classes,
                 range,
-                ..self.picture(&flow.world, points, (&label, values))
+                ..self.picture(points, &label, values)
             };
             picture.save(frames.picture(name))?;
         }
-        for (name, probe) in probes {
+        for (name, probe) in &self.shown.probes {
             let Some(curves) = probe.as_curves() else {
                 continue;
             };
@@ -112,7 +110,7 @@ impl Outputs<'_> {
                 let apart = |[a, b]: [[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
                 let pairs = places.windows(2).map(|pair| apart([pair[0], pair[1]]));
                 let diameter = pairs.fold(f64::INFINITY, f64::min);
-                let plain = self.picture(&flow.world, &places, (&label, &values));
+                let plain = self.picture(&places, &label, &values);
                 let picture = Picture {
                     diameter: match diameter.is_finite() {
                         true => diameter,
@@ -129,12 +127,13 @@ impl Outputs<'_> {
     }
 
     /// A picture of values at points, particles of the spacing.
-    fn picture<'a, const D: usize>(
-        &'a self,
-        world: &World<D>,
-        points: &'a [[f64; 3]],
-        (label, values): (&'a str, &'a [f64]),
-    ) -> Picture<'a> {
+    fn picture<'p>(
+        &'p self,
+        points: &'p [[f64; 3]],
+        label: &'p str,
+        values: &'p [f64],
+    ) -> Picture<'p> {
+        let world = &self.shown.flow.world;
         Picture {
             title: &self.scene.title,
             time: Some(world.time),
@@ -157,7 +156,7 @@ impl Outputs<'_> {
         let given = given.and_then(|all| all.ends(field));
         let speeds = self.scene.phase.values().filter_map(|p| p.velocity_scale);
         let scale = match field {
-            _ if field == fields::PRESSURE.name => self.pressure,
+            _ if field == fields::PRESSURE.name => self.shown.pressure,
             _ if field == fields::VELOCITY.name => speeds.fold(0.0, f64::max),
             _ => 0.0,
         };
@@ -176,13 +175,14 @@ impl Outputs<'_> {
     }
 
     /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
-    fn write_frame<const D: usize>(
+    fn write_frame(
         &self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        (points, depths): (&[[f64; 3]], &[f64]),
+        points: &[[f64; 3]],
+        depths: &[f64],
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
     ) -> Result<()> {
+        let flow = &self.shown.flow;
         if !frames.lists() {
             return Ok(());
         }
@@ -197,12 +197,30 @@ impl Outputs<'_> {
             fluid.fields.push(field);
         }
         let mut pieces = vec![fluid];
-        for level in zones.all_levels() {
+        for level in self.zones.all_levels() {
             pieces.push(zone_particles(level, wanted)?);
         }
         pieces.extend(walls(&flow.world));
         let ranks = among.map_or(1, |(_, ranks)| ranks);
         Ok(frames.add(flow.world.time, pieces, ranks)?)
+    }
+
+    /// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
+    fn finest(&self, name: &str) -> Result<Option<Spots>> {
+        if self.zones.levels.is_empty() {
+            return Ok(None);
+        }
+        let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
+        for (flow, some) in self.zones.finest(&self.shown.flow)? {
+            let Some((_, column)) = column_of(flow, name) else {
+                return Ok(None);
+            };
+            let all = points(flow)?;
+            places.extend(some.iter().map(|k| all[*k]));
+            values.extend(some.iter().map(|k| column[*k]));
+            diameters.resize(places.len(), flow.world.spacing);
+        }
+        Ok(Some((places, values, diameters)))
     }
 }
 
@@ -216,25 +234,3 @@ pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(
 
 /// Places, values and diameters of particles in a picture.
 type Spots = (Vec<[f64; 3]>, Vec<f64>, Vec<f64>);
-
-/// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
-fn finest<const D: usize>(
-    flow: &Flow<D>,
-    zones: &Coupling<D>,
-    name: &str,
-) -> Result<Option<Spots>> {
-    if zones.levels.is_empty() {
-        return Ok(None);
-    }
-    let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
-    for (flow, some) in zones.finest(flow)? {
-        let Some((_, column)) = column_of(flow, name) else {
-            return Ok(None);
-        };
-        let all = points(flow)?;
-        places.extend(some.iter().map(|k| all[*k]));
-        values.extend(some.iter().map(|k| column[*k]));
-        diameters.resize(places.len(), flow.world.spacing);
-    }
-    Ok(Some((places, values, diameters)))
-}

@@ -1,13 +1,12 @@
 //! A run on several ranks: the first gathers all results, and writes them.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_core::{StepError, System};
 use sph_neighbours::decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
-use sph_run::{Identity, RunOptions, Start};
+use sph_run::{RunOptions, Start};
 use sph_scene::Scene;
 
 use crate::failure::error::{Result, RunError};
@@ -16,7 +15,7 @@ use crate::running::checkpoint::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
-use crate::setup::{Assembled, Memory, Share, assembled};
+use crate::setup::{Assembled, Memory, Probes, Share, assembled};
 
 /// The part that a process assembles: on ranks only where particles settle first does each hold the whole for a while.
 pub fn share<const D: usize>(
@@ -36,13 +35,13 @@ pub fn share<const D: usize>(
 /// but where neighbours are searched in it.
 pub fn columns_of_all<const D: usize>(
     scene: &Scene,
-    (identity, start, own): (&Identity, &Start, &Path),
+    options: &RunOptions,
     parts: &mut Assembled<D>,
     counters: &Counters,
 ) -> Result<Assembled<D>> {
-    if looks_around(scene, parts) {
+    if shows_depths(scene) || looks_around(&parts.probes) {
         let mut all = assembled::<D>(scene, Share::Blank)?;
-        begin(scene, identity, start, own, &mut all.flow, &mut ())?;
+        begin(scene, options, &mut all.flow, &mut ())?;
         return Ok(all);
     }
     let standing = parts.flow.walls.take().map(|walls| {
@@ -64,9 +63,9 @@ pub fn columns_of_all<const D: usize>(
     Ok(all)
 }
 
-/// True if a probe or an output needs lists and contacts.
-fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
-    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs().around)
+/// True if a probe needs lists and contacts.
+pub fn looks_around<const D: usize>(probes: &Probes<D>) -> bool {
+    probes.iter().any(|(_, p)| p.needs().around)
 }
 
 impl<const D: usize> Running<'_, D> {
@@ -125,11 +124,6 @@ impl<const D: usize> Running<'_, D> {
             whole.world.lists.builds = builds;
         }
         Ok(())
-    }
-
-    /// True if a probe needs lists and contacts.
-    pub fn looks_around(&self) -> bool {
-        self.parts.probes.iter().any(|(_, p)| p.needs().around)
     }
 
     /// Counts the neighbours of the particles of this process.

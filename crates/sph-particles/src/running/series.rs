@@ -1,10 +1,8 @@
 //! Rows of `series.csv`: balances and probes, and their extremes.
 
-use sph_solver::Flow;
-
 use crate::failure::error::Result;
 use crate::results::balance::Balance;
-use crate::setup::Probes;
+use crate::setup::{Assembled, Probes};
 use crate::zones::Coupling;
 
 /// Extremes of the rows so far.
@@ -64,18 +62,18 @@ impl Extrema {
     /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
     pub fn row<const D: usize>(
         &mut self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        probes: &Probes<D>,
-        dt: f64,
+        shown: &Assembled<D>,
+        zones: &Coupling<D>,
     ) -> Result<(Vec<f64>, Balance<D>)> {
+        let flow = &shown.flow;
         let balance = Balance::from_flow(flow)?;
-        let mut row = vec![flow.world.time, dt];
+        let mut row = vec![flow.world.time, flow.world.dt];
         row.extend(balance.momentum.iter());
         row.extend(balance.columns().map(|(.., value)| value));
         for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }
-        for (name, probe) in probes {
+        for (name, probe) in &shown.probes {
             let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
             if let Some(sums) = probe.as_gathers() {
                 sums.gather(world)?;

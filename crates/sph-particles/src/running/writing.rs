@@ -36,9 +36,10 @@ impl<const D: usize> Running<'_, D> {
                 let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
                 let outputs = Outputs {
                     scene: self.scene,
-                    pressure: self.parts.pressure,
+                    shown,
+                    zones: &self.zones,
                 };
-                outputs.write((&shown.flow, &self.zones), &shown.probes, frames, among)
+                outputs.write(frames, among)
             }
             (None, Some((rank, _))) => {
                 let place = (self.counters.outputs, rank);
@@ -52,10 +53,7 @@ impl<const D: usize> Running<'_, D> {
     /// The row of the whole flow.
     pub fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
-        let dt = shown.flow.world.dt;
-        let (row, balance) = self
-            .extrema
-            .row((&shown.flow, &self.zones), &shown.probes, dt)?;
+        let (row, balance) = self.extrema.row(shown, &self.zones)?;
         let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
         let told = self.mach.look(&balance).into_iter();
         let told = told

@@ -81,10 +81,9 @@ pub fn assembled<const D: usize>(
     let speeds = wall_speeds::remarks(scene, &drawn, &laws)?;
     let opened = open_faces::prepare(scene, &mut drawn, &mut choices, &laws)?;
     let room = InitialWorld::for_share(scene, &drawn, &mut choices, &mut share)?;
+    let faces = open_faces::check(scene, &opened, &room, (&laws, &lift))?;
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
     let (leaks, room) = (room.leaks, room.world);
-    let filled = (&room, placed.positions.as_slice(), &laws, &lift);
-    let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
     let (kinematic_viscosities, constant) = viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();

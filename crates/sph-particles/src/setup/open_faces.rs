@@ -18,6 +18,7 @@ use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
 
 use crate::setup::box_around;
+use crate::setup::initial_world::InitialWorld;
 use crate::setup::shapes::Drawn;
 use crate::setup::sound::slowest_sound;
 
@@ -85,8 +86,8 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
 pub fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
-    walls: Option<&dyn Wall<D>>,
-    filled: FilledBox<'_, D>,
+    room: &InitialWorld<D>,
+    laws: (&Laws, &Lift),
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
         return Ok(Vec::new());
@@ -97,7 +98,7 @@ pub fn check<const D: usize>(
         .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why));
     SolverError::refuse(misfits.collect())?;
     let mut blocked = Vec::<SceneProblem>::new();
-    if let Some(walls) = walls {
+    if let Some(walls) = &room.walls {
         for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
             let path = path(scene, &name, "");
             if !walls.contains(&place) && blocked.iter().all(|p| p.path != path) {
@@ -118,7 +119,7 @@ pub fn check<const D: usize>(
              fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
         )
     });
-    let lifted = lift(scene, opened, walls, filled);
+    let lifted = lift(scene, opened, room, laws);
     Ok(closed.into_iter().chain(lifted).collect())
 }
 
@@ -174,18 +175,15 @@ const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// A box, its particles, their laws and their lift.
-pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
-
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
 /// remark on it, or on the background pressure that is missing.
 fn lift<const D: usize>(
     scene: &Scene,
     opened: &OpenBoundaries<D>,
-    walls: Option<&dyn Wall<D>>,
-    (room, positions, laws, lift): FilledBox<'_, D>,
+    room: &InitialWorld<D>,
+    (laws, lift): (&Laws, &Lift),
 ) -> Option<String> {
-    let walls = walls?;
+    let (walls, positions) = (room.walls.as_deref()?, &room.placed.positions);
     let references = || laws.iter().map(|law| law.reference());
     positions.first()?;
     let [low, high] = box_around(positions);
@@ -196,7 +194,7 @@ fn lift<const D: usize>(
     let background = background.fold(0.0, f64::max);
     let tensions = references().map(|r| r.density * r.sound_speed * fall);
     let tension = tensions.fold(0.0, f64::max);
-    if background >= tension || !is_full(room, walls, positions) {
+    if background >= tension || !is_full(&room.world, walls, positions) {
         return None;
     }
     let stiffness = references().map(|r| r.density * r.sound_speed.powi(2));
@@ -226,19 +224,19 @@ fn lift<const D: usize>(
 }
 
 /// True if every place a spacing beside a particle has another particle, or is behind a wall.
-fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
-    let reach = (1.0 + NEAR) * room.spacing;
-    let grid = CellGrid::new(positions, reach, &room.domain);
+fn is_full<const D: usize>(world: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
+    let reach = (1.0 + NEAR) * world.spacing;
+    let grid = CellGrid::new(positions, reach, &world.domain);
     positions.iter().all(|x| {
         let mut around = Vec::new();
-        let way = |j: &u32| room.domain.nearest_image(positions[*j as usize] - x);
+        let way = |j: &u32| world.domain.nearest_image(positions[*j as usize] - x);
         grid.ranges(x, reach, |range| {
             around.extend(grid.order()[range].iter().map(way));
         });
         (0..2 * D).all(|side| {
             let mut way = Vect::<D>::zeros();
-            way[side / 2] = [room.spacing, -room.spacing][side % 2];
-            let near = |other: &Vect<D>| (other - way).norm() < NEAR * room.spacing;
+            way[side / 2] = [world.spacing, -world.spacing][side % 2];
+            let near = |other: &Vect<D>| (other - way).norm() < NEAR * world.spacing;
             around.iter().any(near) || !walls.contains(&(x + way))
         })
     })

@@ -6,6 +6,7 @@ use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
 use sph_neighbours::{CHUNK, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
+use sph_solver::Flow;
 
 use crate::setup::shapes::Drawn;
 
@@ -30,9 +31,9 @@ struct Concentration<const D: usize> {
 pub fn relax<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
-    world: &mut World<D>,
-    walls: Option<&mut dyn Wall<D>>,
+    flow: &mut Flow<D>,
 ) -> Result<Option<Relaxation>, StepError> {
+    let (world, walls) = (&mut flow.world, flow.walls.as_deref_mut());
     let (Some(settings), Some(walls)) = (scene.numerics.relax, walls) else {
         return Ok(None);
     };

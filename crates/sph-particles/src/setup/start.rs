@@ -43,10 +43,8 @@ pub fn start<const D: usize>(
     let relaxation = match share {
         Share::Blank | Share::Columns(_) => return Ok(None),
         Share::Whole => {
-            let world = &mut flow.world;
-            world.rebuild_lists()?;
-            let walls = flow.walls.as_deref_mut().map(|walls| walls as _);
-            relax(given.scene, given.drawn, world, walls)?
+            flow.world.rebuild_lists()?;
+            relax(given.scene, given.drawn, flow)?
         }
         Share::Part(ranks) => {
             refuse_the_indivisible(flow, ranks.ranks())?;
