@@ -53,15 +53,6 @@ pub fn box_around<'a, const D: usize>(
     places.fold(none, |[low, high], x| [low.inf(x), high.sup(x)])
 }
 
-/// Largest extent of a body along an axis, m.
-pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
-    let of = |region: &Region<D>| {
-        let (low, high) = region.base.bounds();
-        (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
-    };
-    regions.iter().map(of).fold(0.0, f64::max)
-}
-
 /// Times at which the way of prescribed walls is sampled.
 const SAMPLES: usize = 1000;
 

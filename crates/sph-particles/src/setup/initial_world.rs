@@ -1,11 +1,10 @@
 //! Box, kernel, walls and places of a scene: the world before it has columns.
 
-use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup};
 use sph_contribution::Plugins;
 use sph_core::fields::SCALE;
 use sph_core::plausible::Quantity;
 use sph_core::{Store, comma_list};
-use sph_kernels::Kernel;
 use sph_multiphase::Formulation;
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
@@ -55,10 +54,20 @@ impl<const D: usize> InitialWorld<D> {
             });
         }
         let mut warnings = scene.remarks.clone();
+        let build = |walls: &mut dyn Wall<D>, world: &World<D>| {
+            let setup = WallSetup {
+                walls: &drawn.walls,
+                spacing: scene.numerics.spacing,
+                smoothing_length: world.kernel.smoothing_length(),
+                kernel: &*choices.kernel,
+                domain: &world.domain,
+            };
+            let built = walls.build(&setup);
+            built.map_err(|e| wall_problem(scene, &e))
+        };
         if let Some(walls) = &mut choices.walls {
             check_scaling(scene, &**walls, &*choices.formulation)?;
-            let kernel = &*choices.kernel;
-            world.walls = build_walls(scene, &drawn.walls, &mut **walls, kernel, &world)?;
+            world.walls = build(&mut **walls, &world)?;
             warnings.extend(walls.warnings());
         }
         let placed = place(scene, &drawn.regions, choices.walls.as_deref());
@@ -74,9 +83,7 @@ impl<const D: usize> InitialWorld<D> {
             // As the default treatment cuts the walls, for a treatment without elements; nothing where it refuses them.
             let plugins = Plugins::new(Vec::new(), Vec::new());
             let walls = plugins.one::<D, WallEntry>();
-            elements = walls.and_then(|mut walls| {
-                build_walls(scene, &drawn.walls, &mut *walls, &*choices.kernel, &world).ok()
-            });
+            elements = walls.and_then(|mut walls| build(&mut *walls, &world).ok());
         }
         let skins = elements.as_ref().unwrap_or(&world.walls);
         let leaks = leaks(scene, &world, skins, &placed.positions);
@@ -149,25 +156,6 @@ fn check_scaling<const D: usize>(
         defaults::KNOWN_WALLS
     );
     Err(SolverError::at(refused.path, why))
-}
-
-/// Hands every drawn wall to the plugin; refusals point at the wall.
-fn build_walls<const D: usize>(
-    scene: &Scene,
-    drawn: &[WallSpec<D>],
-    walls: &mut dyn Wall<D>,
-    kernel: &dyn Kernel,
-    world: &World<D>,
-) -> Result<WallSet<D>, SolverError> {
-    let setup = WallSetup {
-        walls: drawn,
-        spacing: scene.numerics.spacing,
-        smoothing_length: world.kernel.smoothing_length(),
-        kernel,
-        domain: &world.domain,
-    };
-    let built = walls.build(&setup);
-    built.map_err(|e| wall_problem(scene, &e))
 }
 
 /// A refused wall, pointed at if its message names one of the scene's in backquotes.

@@ -95,18 +95,18 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
 /// themselves.
 fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
     let free = &flow.world.free;
-    let stages = flow
-        .stages
-        .iter()
-        .map(|stage| (stage.name(), stage.access()));
-    let sums = stages.filter(|(_, access)| access.sweep);
-    let all = sums.map(|(stage, Access { writes, .. })| {
-        let columns = writes.iter().filter(|f| free.has(f.name));
-        ExchangeUse {
-            stage,
-            bytes: free.parcel_bytes(|f| writes.contains(f)),
-            columns: columns.map(|f| f.name.to_string()).collect(),
+    let mut all = Vec::new();
+    for stage in &flow.stages {
+        let Access { sweep, writes, .. } = stage.access();
+        let bytes = free.parcel_bytes(|f| writes.contains(f));
+        if sweep && bytes > 0 {
+            let columns = writes.iter().filter(|f| free.has(f.name));
+            all.push(ExchangeUse {
+                stage: stage.name(),
+                columns: columns.map(|f| f.name.to_string()).collect(),
+                bytes,
+            });
         }
-    });
-    all.filter(|told| told.bytes > 0).collect()
+    }
+    all
 }

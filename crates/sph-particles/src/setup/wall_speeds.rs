@@ -6,7 +6,6 @@ use sph_rheology::state::Laws;
 use sph_scene::Scene;
 use sph_solver::SolverError;
 
-use crate::setup::domain::extent;
 use crate::setup::shapes::Drawn;
 use crate::setup::sound::slowest_sound;
 
@@ -36,7 +35,10 @@ pub fn remarks<const D: usize>(
     if !walls.iter().any(|w| w.motion.moves()) {
         return Ok(remarks);
     }
-    let (sound, length) = (slowest_sound(laws), extent(&drawn.regions));
+    let sound = slowest_sound(laws);
+    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
+    let extents = bodies.flat_map(|(low, high)| (0..D).map(move |k| high[k] - low[k]));
+    let length = extents.fold(0.0, f64::max);
     let (end, crossing) = (scene.run.end, length / sound);
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
     let jumps = walls.iter().flat_map(|w| w.motion.steepest());
