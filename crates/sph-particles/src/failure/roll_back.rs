@@ -174,21 +174,22 @@ impl<const D: usize> Running<'_, D> {
 
     /// Back to the last good state, which becomes the checkpoint; with the terms that acted on the particle there.
     fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &RunCounters) {
+        let own = self.options.out.join(CHECKPOINT);
+        // Without a state to go back to, the last save.
+        failure.checkpoint = own.exists().then(|| own.clone());
         let Some(snapshot) = &self.good else {
-            return self.offer_an_earlier_checkpoint(failure);
+            return;
         };
         self.known = DerivedState::default();
         let back = snapshot.restore(&mut self.parts.flow);
         let good = back.and_then(|()| self.evaluate());
         if self.agreed(good.err()).is_some() {
-            return self.offer_an_earlier_checkpoint(failure);
+            return;
         }
         // A run that goes on from here has all retries again.
         self.counters.retries = 0;
-        let own = self.options.out.join(CHECKPOINT);
-        if self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok() {
-            failure.checkpoint = Some(own);
-        }
+        let saved = self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok();
+        failure.checkpoint = saved.then_some(own);
         let flow = &self.shown().flow;
         let particle = &mut failure.findings.particle;
         let place = particle.as_ref().and_then(|p| place_of(flow, p.number));
@@ -196,12 +197,6 @@ impl<const D: usize> Running<'_, D> {
             particle.before = sighting(flow, k);
             failure.findings.before = shares_on(flow, k);
         }
-    }
-
-    /// Without a state to go back to, the last save.
-    fn offer_an_earlier_checkpoint(&self, failure: &mut Failure) {
-        let saved = self.options.out.join(CHECKPOINT);
-        failure.checkpoint = saved.exists().then_some(saved);
     }
 
     fn sum_up(&self, failure: &mut Failure) {

@@ -164,10 +164,21 @@ fn against_series<const D: usize>(
     values: &[f64],
     solution: Option<&dyn Solution<D>>,
 ) -> Result<ErrorEntry, String> {
-    match reference.norm() {
-        Norm::DecayRate => return decay(reference, times, values, solution),
-        _ if reference.stands_alone() => return averaged(reference, times, values),
-        _ => {}
+    if reference.norm() == Norm::DecayRate {
+        let exact = solution.and_then(|s| s.energy_rate());
+        let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
+        let pairs = times.iter().zip(values);
+        let pairs = pairs.filter(|(t, v)| counts(reference, **t) && **v > 0.0);
+        let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
+        if t.len() < 2 {
+            return Err("fewer than two rows of the series count".into());
+        }
+        let window = [t[0], t[t.len() - 1]];
+        let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
+        return Ok(entry(value, reference, t.len(), window));
+    }
+    if reference.stands_alone() {
+        return averaged(reference, times, values);
     }
     let path = reference.path.as_ref();
     let path = path.ok_or("a probe is compared with a `file`, or by the norm `decay-rate`")?;
@@ -232,23 +243,4 @@ fn against_table(
         _ => return Err("this norm is for fields".into()),
     };
     Ok(entry(value, reference, n, window))
-}
-
-fn decay<const D: usize>(
-    reference: &Reference,
-    times: &[f64],
-    values: &[f64],
-    solution: Option<&dyn Solution<D>>,
-) -> Result<ErrorEntry, String> {
-    let exact = solution.and_then(|s| s.energy_rate());
-    let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
-    let pairs = times.iter().zip(values);
-    let pairs = pairs.filter(|(t, v)| counts(reference, **t) && **v > 0.0);
-    let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
-    if t.len() < 2 {
-        return Err("fewer than two rows of the series count".into());
-    }
-    let window = [t[0], t[t.len() - 1]];
-    let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
-    Ok(entry(value, reference, t.len(), window))
 }

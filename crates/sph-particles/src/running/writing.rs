@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use sph_probes::Probe;
 use sph_run::{Frames, RunCounters, Watch};
 
 use crate::failure::error::Result;
@@ -12,15 +11,6 @@ use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::{Outputs, shows_depths};
 use crate::running::pieces::write_own_share;
-use crate::setup::Probes;
-
-/// Sums of probes, by their names.
-fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
-    let one =
-        |(name, p): &(String, Box<dyn Probe<D>>)| Some((name.clone(), p.as_gathers()?.gathered()));
-    let all = probes.iter().filter_map(one);
-    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
-}
 
 impl<const D: usize> Running<'_, D> {
     /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
@@ -104,10 +94,12 @@ impl<const D: usize> Running<'_, D> {
         let left = self.parts.flow.left();
         counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let shown = self.shown();
+        let sums = shown.probes.iter();
+        let sums = sums.filter_map(|(name, p)| Some((name.clone(), p.as_gathers()?.gathered())));
         let counters = Counters {
             stage_seconds: self.stage_seconds(books),
             works: self.parts.flow.counts(),
-            probes: gathered(&shown.probes),
+            probes: sums.filter(|(_, sums)| !sums.is_empty()).collect(),
             ..self.counters.clone()
         };
         let identity = &self.options.identity;
