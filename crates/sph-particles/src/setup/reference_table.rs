@@ -23,8 +23,17 @@ pub fn readable(scene: &Scene) -> Result<(), SolverError> {
 /// Times, values, and the upper limits of a band: finite numbers, in the order of time, scaled as the reference says.
 pub fn reference_series(reference: &Reference, path: &Path) -> Result<[Vec<f64>; 3], IoError> {
     sph_io::readable(path, LONGEST)?;
-    let table = columns_of(reference, path)?;
     let band = reference.norm() == Norm::Band;
+    let table = match (&reference.lower, &reference.upper) {
+        (Some(low), Some(high)) if band => {
+            let time = match &reference.columns {
+                Some(columns) => columns[0].clone(),
+                None => read_table(path)?.columns[0].name.clone(),
+            };
+            read_columns(path, &[&time, low, high])?
+        }
+        _ => named_or_all(path, reference.columns.as_deref())?,
+    };
     if let Some(problem) = unfit(&table, band) {
         return Err(IoError::Unfit(path.into(), problem));
     }
@@ -67,19 +76,6 @@ fn unfit(table: &Table, band: bool) -> Option<String> {
     }
     let still = table.rows() > 1 && times[0] == times[times.len() - 1];
     still.then(|| "all its times are the same".to_string())
-}
-
-fn columns_of(reference: &Reference, path: &Path) -> Result<Table, IoError> {
-    if let (Norm::Band, Some(low), Some(high)) =
-        (reference.norm(), &reference.lower, &reference.upper)
-    {
-        let time = match &reference.columns {
-            Some(columns) => columns[0].clone(),
-            None => read_table(path)?.columns[0].name.clone(),
-        };
-        return read_columns(path, &[&time, low, high]);
-    }
-    named_or_all(path, reference.columns.as_deref())
 }
 
 /// The columns of these names, or all of a table.
