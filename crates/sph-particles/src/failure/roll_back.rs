@@ -127,26 +127,20 @@ impl<const D: usize> Running<'_, D> {
     /// The particle, its place, and the terms that acted on it if the bad state was evaluated.
     fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
         let flow = &self.shown().flow;
-        let Some((k, named)) = suspect(flow, &failure.cause) else {
-            return;
-        };
         let free = &flow.world.free;
-        let Some(number) = free.get(fields::IDENTITY).ok().map(|i| i[k]) else {
+        let found = suspect(flow, &failure.cause);
+        let (Some((k, named)), Ok(identity)) = (found, free.get(fields::IDENTITY)) else {
             return;
         };
+        let number = identity[k];
         let phase = free.get(fields::PHASE).map_or(0, |p| p[k] as usize);
+        let phase = self.scene.phase.keys().nth(phase).cloned();
         let body = self.parts.body_of.get(number as usize).copied();
         let body = body.and_then(|b| self.scene.body.keys().nth(b as usize));
         failure.findings.particle = Some(Suspect {
             number,
             named,
-            phase: self
-                .scene
-                .phase
-                .keys()
-                .nth(phase)
-                .cloned()
-                .unwrap_or_default(),
+            phase: phase.unwrap_or_default(),
             body: body.cloned().unwrap_or_default(),
             before: None,
             after: sighting(flow, k),
@@ -204,8 +198,7 @@ impl<const D: usize> Running<'_, D> {
         let files = failure.pictures.iter().chain(&failure.bad_state);
         let files = files.chain(&failure.checkpoint);
         failure.findings.files = files.filter_map(name).collect();
-        let told = &self.parts.flow.remedies;
-        let all = remedies(self.scene, failure, told);
+        let all = remedies(self.scene, failure, &self.parts.flow.remedies);
         let leak = self.leak_at(&failure.cause);
         let leak = leak.map(|leak| format!("mend the wall beside the particle, {}", leak.text));
         failure.findings.advice = leak.into_iter().chain(all).collect();

@@ -99,11 +99,9 @@ impl<const D: usize> LeakInput<'_, D> {
         }
         let ends = self.ends(rim);
         let centre = 0.5 * (low + high);
-        let mut others = self.skins.all.iter().enumerate();
-        let around = |k: usize, skin: &Skin<D>| {
-            skin.holds && !rim.skins.contains(&k) && in_box(skin, &centre)
-        };
-        if let Some((_, skin)) = others.find(|(k, skin)| around(*k, skin)) {
+        let others = self.skins.all.iter().enumerate();
+        let mut others = others.filter(|(k, _)| !rim.skins.contains(k));
+        if let Some((_, skin)) = others.find(|(_, s)| s.holds && in_box(s, &centre)) {
             let holds = self.name(skin.wall);
             return told(format!(
                 "it ends at {ends}, within wall `{holds}`, and no wall goes on there: fluid gets behind it; close it{}",
@@ -112,14 +110,13 @@ impl<const D: usize> LeakInput<'_, D> {
         }
         let up = self.up?;
         let upright = rim.lid.dot(&up) > -UPRIGHT * rim.lid.norm();
-        let leaves = !self.scene.outlet.is_empty();
-        if upright && !leaves {
-            return told(format!(
-                "it is open at {ends}, below the level of the fluid at the start: fluid runs out there; close it, or \
-                 put an `[outlet.NAME]` where the fluid is to leave"
-            ));
+        if !upright || !self.scene.outlet.is_empty() {
+            return None;
         }
-        None
+        told(format!(
+            "it is open at {ends}, below the level of the fluid at the start: fluid runs out there; close it, or \
+             put an `[outlet.NAME]` where the fluid is to leave"
+        ))
     }
 
     fn gap(&self, rim: &Rim<D>) -> String {

@@ -36,7 +36,6 @@ pub fn place<const D: usize>(
         x if x < 0.25 => Offset::None,
         _ => Offset::Half,
     };
-    let periodic = scene.numerics.periodic.bounds::<D>();
     let filled = filled(scene, regions, offset);
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
     let mut placed = PlacedParticles::default();
@@ -91,7 +90,7 @@ pub fn place<const D: usize>(
         return Err(problems);
     }
     if let (Some(walls), Offset::Half, None) = (walls, offset, &scene.window) {
-        let remarks = shares(scene, regions, walls, &periodic, &numbers);
+        let remarks = shares(scene, regions, walls, &numbers);
         placed.warnings.extend(remarks);
     }
     Ok(placed)
@@ -224,7 +223,6 @@ pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
     walls: &dyn Wall<D>,
-    periodic: &[Option<[f64; 2]>; D],
     kept: &[usize],
 ) -> Vec<String> {
     let spacing = scene.numerics.spacing;
@@ -237,7 +235,8 @@ pub fn shares<const D: usize>(
         return Vec::new();
     }
     let step = spacing / finer as f64;
-    let samples = fill(regions, step, Offset::Half, periodic);
+    let periodic = scene.numerics.periodic.bounds();
+    let samples = fill(regions, step, Offset::Half, &periodic);
     let share = |filled: &BodyParticles<D>| {
         let inside = filled.positions.iter().map(|x| Vect::from(*x));
         let inside = inside.filter(|x| walls.contains(x)).count() as f64;
