@@ -12,7 +12,7 @@ use crate::failure::findings::{
 };
 use crate::failure::remedies::remedies;
 use crate::running::course::{DerivedState, Running};
-use crate::running::output::write_everything;
+use crate::running::pieces::{particles, points};
 use crate::setup::Leak;
 use crate::{Failure, RunError, Summary};
 
@@ -105,7 +105,10 @@ impl<const D: usize> Running<'_, D> {
         if self.writes() {
             let out = &self.options.out;
             let (bad, flow) = (out.join(BAD_STATE), &self.shown().flow);
-            let written = write_everything(flow, &bad).is_ok();
+            let written = points(flow).is_ok_and(|points| {
+                let all = particles(&flow.world.free, &points, |_| true);
+                sph_io::write_vtu(&bad, &all, flow.world.time).is_ok()
+            });
             failure.bad_state = written.then_some(bad);
             let particle = failure.findings.particle.as_ref();
             let place = particle.and_then(|p| self.place(p.number));

@@ -47,7 +47,15 @@ impl<const D: usize> Model for Running<'_, D> {
             }
         }
         self.energy.recall(self.counters.energies);
-        self.recall_extrema(start.goes_on());
+        if start.goes_on() {
+            let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
+            self.extrema.density_range = [low, high];
+            (self.extrema.energy_scale, self.extrema.momentum_scale) = (energy, momentum);
+        }
+        let kept = self.counters.series_peaks.iter().flatten();
+        for (peak, bits) in self.extrema.peaks.iter_mut().zip(kept) {
+            *peak = f64::from_bits(*bits);
+        }
         Ok(self.counters.books(self.parts.flow.world.time))
     }
 

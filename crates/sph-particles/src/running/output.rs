@@ -1,7 +1,5 @@
 //! Fields for ParaView, pictures and the curves of probes.
 
-use std::path::Path;
-
 use sph_core::fields;
 use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
@@ -222,14 +220,6 @@ impl<const D: usize> Outputs<'_, D> {
         }
         Ok(Some((places, values, diameters)))
     }
-}
-
-/// A frame of all columns, for the state in which a run failed.
-pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<()> {
-    let points = points(flow)?;
-    let piece = particles(&flow.world.free, &points, |_| true);
-    sph_io::write_vtu(path, &piece, flow.world.time)?;
-    Ok(())
 }
 
 /// Places, values and diameters of particles in a picture.

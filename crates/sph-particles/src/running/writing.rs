@@ -58,20 +58,6 @@ impl<const D: usize> Running<'_, D> {
         Ok(row)
     }
 
-    /// Takes up the extremes in rows of earlier parts of the run.
-    pub fn recall_extrema(&mut self, goes_on: bool) {
-        let extrema = &mut self.extrema;
-        if goes_on {
-            let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
-            extrema.density_range = [low, high];
-            (extrema.energy_scale, extrema.momentum_scale) = (energy, momentum);
-        }
-        let kept = self.counters.series_peaks.iter().flatten();
-        for (peak, bits) in extrema.peaks.iter_mut().zip(kept) {
-            *peak = f64::from_bits(*bits);
-        }
-    }
-
     pub fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {

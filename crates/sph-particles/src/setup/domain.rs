@@ -56,8 +56,18 @@ pub fn box_around<'a, const D: usize>(
 /// Times at which the way of prescribed walls is sampled.
 const SAMPLES: usize = 1000;
 
-/// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
-fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
+/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
+pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
+    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
+    let boxes = bodies.chain(drawn.bounds);
+    let [lower, upper] = bounds(boxes.flat_map(|(low, high)| [low, high])).map(Vect::from);
+    // Splashes rise over an open tank; without walls the flow may go far.
+    let room = if scene.wall.is_empty() { 10.0 } else { 2.0 };
+    let extent = (upper - lower).max();
+    let margin = Vect::repeat(room * extent);
+    let mut domain = Domain::open(lower - margin, upper + margin);
+    // A least way of prescribed walls from the borders until the end of the run: shorter courses leave the box unchanged.
+    let margin = 0.5 * room * extent;
     for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
         let [low, high] = bounds(wall.drawing.points::<D>()).map(Vect::from);
         for n in 0..=SAMPLES {
@@ -72,20 +82,6 @@ fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &
             }
         }
     }
-}
-
-/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
-pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
-    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
-    let boxes = bodies.chain(drawn.bounds);
-    let [lower, upper] = bounds(boxes.flat_map(|(low, high)| [low, high])).map(Vect::from);
-    // Splashes rise over an open tank; without walls the flow may go far.
-    let room = if scene.wall.is_empty() { 10.0 } else { 2.0 };
-    let extent = (upper - lower).max();
-    let margin = Vect::repeat(room * extent);
-    let mut domain = Domain::open(lower - margin, upper + margin);
-    // A least way: shorter courses of walls leave the box unchanged.
-    sweep(scene, drawn, 0.5 * room * extent, &mut domain);
     if let Some([low, high]) = &scene.numerics.domain {
         domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));
     }

@@ -149,7 +149,6 @@ pub fn examine_in<const D: usize>(
             read_by: users(&|s| among(&s.reads_here) || among(&s.reads_at_neighbours)),
         }
     });
-    let fields = fields.collect();
     let particles = world.free.len();
     let neighbours = world.mean_neighbours()?;
     let estimate = Estimate::new(scene, particles as f64, dt, memory.total());
@@ -163,7 +162,7 @@ pub fn examine_in<const D: usize>(
             .chain(flow.inner_bounds.iter().cloned())
             .collect(),
         plugins: std::mem::take(&mut assembled.plugins),
-        fields,
+        fields: fields.collect(),
         bytes_per_particle: world.free.bytes_per_particle(),
         pruned: flow.pruned.clone(),
         particles,
