@@ -9,7 +9,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, StepError, Vect, fields};
 use sph_neighbours::World;
-use sph_rheology::state::{BoundState, Laws};
+use sph_rheology::state::Laws;
 
 use crate::faces::{Face, Faces, SharedFaces, lock};
 use crate::walls::OpenWalls;
@@ -52,7 +52,7 @@ pub fn open<const D: usize>(
     let faces = Faces {
         faces: faces.collect(),
         laws: laws.clone(),
-        backgrounds: laws.iter().map(|law| at_reference(&**law)).collect(),
+        backgrounds: laws.iter().map(|law| law.background()).collect(),
         whole: laws.iter().map(|l| l.reference().density * cell).collect(),
         spacing,
         ..Faces::default()
@@ -63,13 +63,6 @@ pub fn open<const D: usize>(
         faces: faces.clone(),
     };
     (Box::new(walls), OpenBoundaries { faces, summed })
-}
-
-/// Pressure at the reference density, Pa.
-fn at_reference(law: &dyn BoundState) -> f64 {
-    let mut pressure = [0.0];
-    law.pressure(&[law.reference().density], &mut pressure);
-    pressure[0]
 }
 
 impl<const D: usize> OpenBoundaries<D> {
@@ -131,7 +124,7 @@ impl<const D: usize> OpenBoundaries<D> {
     /// Learns anew at which pressures the laws of the phases have their reference densities.
     pub fn lifted(&self) {
         let mut faces = lock(&self.faces);
-        faces.backgrounds = faces.laws.iter().map(|law| at_reference(&**law)).collect();
+        faces.backgrounds = faces.laws.iter().map(|law| law.background()).collect();
     }
 
     /// As the solver keeps it.

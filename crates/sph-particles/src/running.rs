@@ -1,6 +1,5 @@
 //! Particles as a model that is run: steps, rows, fields, checkpoints.
 
-pub(crate) mod beginning;
 pub(crate) mod checkpoint;
 pub(crate) mod counters;
 pub(crate) mod course;
@@ -10,7 +9,6 @@ pub(crate) mod next_step;
 pub(crate) mod output;
 pub(crate) mod pieces;
 pub(crate) mod ranked;
-pub(crate) mod ready;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod stepper;

@@ -67,9 +67,12 @@ impl Subject for Scene {
     }
 
     fn run(&self, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Ended, IoError> {
+        let goes_on = options.start.goes_on();
         match run(&self.0.scene, options, observer) {
             Ok(summary) => Ok(Ended::done(summary.status, &summary)),
-            Err(error) if options.start.goes_on() && cannot_resume(&error) => Ok(Ended::Unusable),
+            // The checkpoint is of no use.
+            Err(RunError::Resume { .. }) if goes_on => Ok(Ended::Unusable),
+            Err(RunError::Io(error)) if goes_on && unusable(&error) => Ok(Ended::Unusable),
             Err(RunError::Io(error)) => Err(error),
             Err(error) => Ok(Ended::Failed(known(&error), error.to_string())),
         }
@@ -93,18 +96,9 @@ fn known(error: &RunError) -> Json {
         Some(summary) => serde_json::to_value(summary).unwrap_or(Json::Null),
         None => json!({ "first_trouble": failure.first }),
     };
-    known["steps"] = failure.step.into();
-    known["simulated_seconds"] = failure.time.into();
+    known["steps"] = failure.findings.cause.step.into();
+    known["simulated_seconds"] = failure.findings.cause.time.into();
     known
-}
-
-/// True if an error means that a checkpoint is of no use.
-fn cannot_resume(error: &RunError) -> bool {
-    match error {
-        RunError::Resume { .. } => true,
-        RunError::Io(io) => unusable(io),
-        _ => false,
-    }
 }
 
 /// Longest file that a scene may name, bytes: that of a triangle mesh.

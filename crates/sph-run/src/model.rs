@@ -96,10 +96,11 @@ pub enum Poll<E> {
 }
 
 /// End of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// It reached its end.
+    #[default]
     Done,
     /// It stopped on an error.
     Failed,

@@ -12,12 +12,8 @@ use crate::{Findings, Summary};
 
 /// A run that stopped before its end.
 #[derive(Debug, Error)]
-#[error("the run failed at t = {time:.6} s, step {step}: {cause}")]
+#[error("the run failed at t = {:.6} s, step {}: {cause}", .findings.cause.time, .findings.cause.step)]
 pub struct Failure {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Step.
-    pub step: u64,
     /// The error and its place.
     pub cause: StepError,
     /// The first step that failed, which a shorter one may have got over for a while.
@@ -33,6 +29,8 @@ pub struct Failure {
     /// Pictures of the bad state, as far as they were written: all of it, and the surroundings of the particle.
     pub pictures: Vec<PathBuf>,
 }
+
+pub(crate) type Result<T, E = RunError> = std::result::Result<T, E>;
 
 /// Anything that keeps a scene from its result.
 #[derive(Debug, Error)]

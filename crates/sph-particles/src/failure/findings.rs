@@ -90,34 +90,12 @@ impl Findings {
     }
 }
 
-impl Share {
-    fn new<const D: usize>(share: &TermShare<D>, kinds: &[(String, &str)]) -> Self {
-        let kind = kinds.iter().find(|(name, _)| *name == share.name);
-        Share {
-            term: share.name.clone(),
-            kind: kind.map_or(String::new(), |(_, kind)| kind.to_string()),
-            acceleration: finite(share.rates.acceleration.norm()),
-            of_walls: finite(share.of_walls.acceleration.norm()),
-            density_rate: finite(share.rates.scalar).filter(|r| *r != 0.0),
-        }
-    }
-
-    fn volume_force<const D: usize>(term: &str, a: &Vect<D>) -> Self {
-        Share {
-            term: term.into(),
-            acceleration: finite(a.norm()),
-            of_walls: Some(0.0),
-            ..Share::default()
-        }
-    }
-}
-
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
 /// The index of the particle that a failed step names, or else of the one with the largest acceleration.
-pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Option<(usize, bool)> {
+pub fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Option<(usize, bool)> {
     if let StepError::Bad { particle, .. } = cause {
         return Some((place_of(flow, *particle)?, true));
     }
@@ -133,21 +111,39 @@ pub(crate) fn suspect<const D: usize>(flow: &Flow<D>, cause: &StepError) -> Opti
 }
 
 /// The present place of the particle of a number.
-pub(crate) fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
+pub fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
     let identity = flow.world.free.get(fields::IDENTITY).ok()?;
     identity.iter().position(|i| *i == number)
 }
 
 /// Terms that act on a particle at the state of the last evaluation, largest first.
-pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
+pub fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
-    let of = |share| Share::new(share, &flow.kinds);
-    let mut shares: Vec<Share> = terms.iter().map(of).collect();
+    let kind = |term: &str| flow.kinds.iter().find(|(name, _)| name == term);
+    let mut shares = Vec::new();
+    for TermShare {
+        name,
+        rates,
+        of_walls,
+    } in &terms
+    {
+        shares.push(Share {
+            term: name.clone(),
+            kind: kind(name).map_or(String::new(), |(_, kind)| kind.to_string()),
+            acceleration: finite(rates.acceleration.norm()),
+            of_walls: finite(of_walls.acceleration.norm()),
+            density_rate: finite(rates.scalar).filter(|r| *r != 0.0),
+        });
+    }
     let world = &flow.world;
-    for (term, a) in [("gravity", &world.gravity), ("driving", &world.driving)] {
-        if a.norm() > 0.0 {
-            shares.push(Share::volume_force(term, a));
-        }
+    let volume_forces = [("gravity", &world.gravity), ("driving", &world.driving)];
+    for (term, a) in volume_forces.into_iter().filter(|(_, a)| a.norm() > 0.0) {
+        shares.push(Share {
+            term: term.into(),
+            acceleration: finite(a.norm()),
+            of_walls: Some(0.0),
+            ..Share::default()
+        });
     }
     let size = |s: &Share| s.acceleration.unwrap_or(f64::INFINITY);
     shares.sort_by(|a, b| size(b).total_cmp(&size(a)));
@@ -155,7 +151,7 @@ pub(crate) fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<
 }
 
 /// A particle as it is now.
-pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
+pub fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Option<ParticleRecord> {
     let world = &flow.world;
     let position = world.free.get(fields::POSITION).ok()?;
     let velocity = world.free.get(fields::VELOCITY).ok()?;
@@ -185,7 +181,7 @@ pub(crate) fn sighting<const D: usize>(flow: &Flow<D>, particle: usize) -> Optio
 }
 
 /// Report of a failed step.
-pub(crate) fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
+pub fn trouble(cause: &StepError, time: f64, step: u64) -> Trouble {
     let bare = |quantity: &str, reason: String| Trouble {
         time,
         step,

@@ -4,7 +4,8 @@ use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::defaults;
 
-use crate::failure::findings::{Findings, ParticleRecord, Share};
+use crate::Failure;
+use crate::failure::findings::{Findings, Share};
 
 /// Remedies of the plugins of a scene for their terms, by kind.
 pub type Remedies = [(&'static str, String)];
@@ -17,12 +18,8 @@ const LARGE: f64 = 100.0;
 const CLOSE: f64 = 0.3;
 
 /// Remedies: against the quantity first, then against the largest term, then against the step.
-pub fn remedies(
-    scene: &Scene,
-    cause: &StepError,
-    found: &Findings,
-    told: &Remedies,
-) -> Vec<String> {
+pub fn remedies(scene: &Scene, failure: &Failure, told: &Remedies) -> Vec<String> {
+    let (cause, found) = (&failure.cause, &failure.findings);
     let mut all = against_quantity(cause, found);
     if let StepError::Stage { stage, .. } = cause {
         let failed = told.iter().filter(|(name, _)| name == stage);
@@ -35,34 +32,27 @@ pub fn remedies(
     all
 }
 
-fn last_record(found: &Findings) -> Option<&ParticleRecord> {
-    let particle = found.particle.as_ref()?;
-    particle.before.as_ref().or(particle.after.as_ref())
-}
-
 fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
-    let text = |lines: &[&str]| lines.iter().map(|s| s.to_string()).collect();
-    match cause {
-        StepError::Bad {
-            quantity: "density",
-            ..
-        } => text(&[
+    let StepError::Bad { quantity, .. } = cause else {
+        return Vec::new();
+    };
+    match *quantity {
+        "density" => vec![
             "particles are squeezed or torn apart: raise `speed_of_sound` of the phase to ten times the largest speed, or give \
-             `velocity_scale`",
-            &format!(
+             `velocity_scale`"
+                .into(),
+            format!(
                 "if a splash folds or tears the surface, {} lets densities forget it, where they are sums; \
                  `numerics.density_bounds` may be too narrow",
                 defaults::SURFACE
             ),
-        ]),
-        StepError::Bad {
-            quantity: "position",
-            ..
-        } => text(&[
+        ],
+        "position" => vec![
             "a particle left the domain: close the wall it went through, put an `[outlet.NAME]` where it leaves, or widen \
-             `numerics.domain`",
-        ]),
-        StepError::Bad { .. } if found.largest().is_none() => {
+             `numerics.domain`"
+                .into(),
+        ],
+        _ if found.largest().is_none() => {
             let smoother = defaults::suggested("smoother").into_iter();
             let remedy = smoother.map(|s| format!("give the scene a smoother ({s})"));
             remedy.collect()
@@ -71,17 +61,12 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
     }
 }
 
-/// True if an acceleration exceeds those that drive flows.
-fn large(scene: &Scene, acceleration: f64) -> bool {
-    let size = |a: &Option<Vec<f64>>| a.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
-    let driven = size(&scene.numerics.gravity) + size(&scene.numerics.driving);
-    acceleration > LARGE * driven
-}
-
 /// The setting that tames the term.
 fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String> {
     let largest = format!("the largest term was `{}`", share.term);
-    if let Some(a) = share.acceleration.filter(|a| !large(scene, *a)) {
+    let size = |a: &Option<Vec<f64>>| a.iter().flatten().map(|x| x * x).sum::<f64>().sqrt();
+    let driven = size(&scene.numerics.gravity) + size(&scene.numerics.driving);
+    if let Some(a) = share.acceleration.filter(|a| *a <= LARGE * driven) {
         return Some(format!(
             "no term was large there ({largest}, {a:.1e} m/s²): look at how the particle came to where it was"
         ));
@@ -107,7 +92,9 @@ fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String>
 
 /// Two particles in one place are no matter of steps.
 fn against_crowding(found: &Findings) -> Option<String> {
-    let nearest = last_record(found)?.nearest.filter(|d| *d < CLOSE)?;
+    let particle = found.particle.as_ref()?;
+    let record = particle.before.as_ref().or(particle.after.as_ref())?;
+    let nearest = record.nearest.filter(|d| *d < CLOSE)?;
     Some(format!(
         "its nearest neighbour was {nearest:.2} spacings away: look whether bodies overlap at the start, or settle them \
          (`numerics.relax`)"

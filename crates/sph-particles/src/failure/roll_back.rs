@@ -6,12 +6,13 @@ use sph_core::{StepError, Vect, fields};
 use sph_run::{BAD_STATE, CHECKPOINT, RunCounters, Status, Watch};
 
 use crate::failure::bad_pictures;
+use crate::failure::error::Result;
 use crate::failure::findings::{
     Findings, Suspect, place_of, shares_on, sighting, suspect, trouble,
 };
 use crate::failure::remedies::remedies;
 use crate::running::course::{DerivedState, Running};
-use crate::running::output::write_everything;
+use crate::running::pieces::{particles, points};
 use crate::setup::Leak;
 use crate::{Failure, RunError, Summary};
 
@@ -24,17 +25,13 @@ impl<const D: usize> Running<'_, D> {
     ///
     /// # Errors
     /// If there is no such state, or there were too many tries.
-    pub(crate) fn go_back(
-        &mut self,
-        cause: StepError,
-        observer: &mut Watch<'_>,
-    ) -> Result<(), RunError> {
+    pub fn go_back(&mut self, cause: StepError, observer: &mut Watch<'_>) -> Result<()> {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         self.departure.failed(&cause);
         let hopeless = self.leak_at(&cause).is_some();
         let left = self.counters.retries < self.scene.run.retries;
-        let Some(kept) = self.good.state().filter(|_| left && !hopeless) else {
+        let Some(kept) = self.good.as_ref().filter(|_| left && !hopeless) else {
             return Err(self.failed(cause));
         };
         self.counters.retries += 1;
@@ -75,15 +72,13 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// A run that ends here, of which no more is known than why.
-    pub(crate) fn failed(&mut self, cause: StepError) -> RunError {
+    pub fn failed(&mut self, cause: StepError) -> RunError {
         let cause = self.known_to_all(cause);
         self.note_trouble(&cause);
         let (time, step) = (self.parts.flow.world.time, self.counters.steps);
         RunError::Failed(Box::new(Failure {
             first: self.counters.first_trouble.clone().unwrap_or_default(),
             summary: None,
-            time,
-            step,
             findings: Findings {
                 cause: trouble(&cause, time, step),
                 retries: self.counters.retries,
@@ -99,16 +94,26 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Finds and writes the evidence of a failed run.
-    pub(crate) fn find_out(
+    pub fn find_out(
         &mut self,
         failure: &mut Failure,
         books: &RunCounters,
-    ) -> Result<Option<Summary>, RunError> {
+    ) -> Result<Option<Summary>> {
         // The bad state, as far as it can be had.
         let _ = self.gather(false);
         self.look_at_the_bad_state(failure);
         if self.writes() {
-            self.draw_the_bad_state(failure);
+            let out = &self.options.out;
+            let (bad, flow) = (out.join(BAD_STATE), &self.shown().flow);
+            let written = points(flow).is_ok_and(|points| {
+                let all = particles(&flow.world.free, &points, |_| true);
+                sph_io::write_vtu(&bad, &all, flow.world.time).is_ok()
+            });
+            failure.bad_state = written.then_some(bad);
+            let particle = failure.findings.particle.as_ref();
+            let place = particle.and_then(|p| self.place(p.number));
+            let title = format!("failed: {}", self.scene.title);
+            failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
         }
         self.go_to_the_last_good_state(failure, books);
         if !self.writes() {
@@ -122,37 +127,24 @@ impl<const D: usize> Running<'_, D> {
         Ok(Some(summary))
     }
 
-    fn draw_the_bad_state(&self, failure: &mut Failure) {
-        let out = &self.options.out;
-        let bad = out.join(BAD_STATE);
-        let flow = &self.shown().flow;
-        let written = write_everything(flow, &bad).is_ok();
-        failure.bad_state = written.then_some(bad);
-        let number = failure.findings.particle.as_ref().map(|p| p.number);
-        let place = number.and_then(|n| self.place(n));
-        let title = format!("failed: {}", self.scene.title);
-        failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
-    }
-
     /// The particle, its place, and the terms that acted on it if the bad state was evaluated.
     fn look_at_the_bad_state(&mut self, failure: &mut Failure) {
         let flow = &self.shown().flow;
-        let Some((k, named)) = suspect(flow, &failure.cause) else {
-            return;
-        };
         let free = &flow.world.free;
-        let Some(number) = free.get(fields::IDENTITY).ok().map(|i| i[k]) else {
+        let found = suspect(flow, &failure.cause);
+        let (Some((k, named)), Ok(identity)) = (found, free.get(fields::IDENTITY)) else {
             return;
         };
+        let number = identity[k];
         let phase = free.get(fields::PHASE).map_or(0, |p| p[k] as usize);
+        let phase = self.scene.phase.keys().nth(phase).cloned();
         let body = self.parts.body_of.get(number as usize).copied();
         let body = body.and_then(|b| self.scene.body.keys().nth(b as usize));
-        let name = |n: Option<&String>| n.cloned().unwrap_or_default();
         failure.findings.particle = Some(Suspect {
             number,
             named,
-            phase: name(self.scene.phase.keys().nth(phase)),
-            body: name(body),
+            phase: phase.unwrap_or_default(),
+            body: body.cloned().unwrap_or_default(),
             before: None,
             after: sighting(flow, k),
         });
@@ -169,7 +161,7 @@ impl<const D: usize> Running<'_, D> {
     fn place(&self, number: u32) -> Option<Vect<D>> {
         let flow = &self.shown().flow;
         let now = flow.world.free.get(fields::POSITION).ok()?[place_of(flow, number)?];
-        let before = self.good.state().and_then(|s| s.position_of(number));
+        let before = self.good.as_ref().and_then(|s| s.position_of(number));
         // Places that are not finite are left out.
         let shown = [Some(now), before].into_iter().flatten();
         let mut shown = shown.filter(|x| x.iter().all(|x| x.is_finite()));
@@ -179,21 +171,22 @@ impl<const D: usize> Running<'_, D> {
 
     /// Back to the last good state, which becomes the checkpoint; with the terms that acted on the particle there.
     fn go_to_the_last_good_state(&mut self, failure: &mut Failure, books: &RunCounters) {
-        let Some(snapshot) = self.good.state() else {
-            return self.offer_an_earlier_checkpoint(failure);
+        let own = self.options.out.join(CHECKPOINT);
+        // Without a state to go back to, the last save.
+        failure.checkpoint = own.exists().then(|| own.clone());
+        let Some(snapshot) = &self.good else {
+            return;
         };
         self.known = DerivedState::default();
         let back = snapshot.restore(&mut self.parts.flow);
         let good = back.and_then(|()| self.evaluate());
         if self.agreed(good.err()).is_some() {
-            return self.offer_an_earlier_checkpoint(failure);
+            return;
         }
         // A run that goes on from here has all retries again.
         self.counters.retries = 0;
-        let own = self.options.out.join(CHECKPOINT);
-        if self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok() {
-            failure.checkpoint = Some(own);
-        }
+        let saved = self.gather(true).is_ok() && self.save_gathered(books, &own).is_ok();
+        failure.checkpoint = saved.then_some(own);
         let flow = &self.shown().flow;
         let particle = &mut failure.findings.particle;
         let place = particle.as_ref().and_then(|p| place_of(flow, p.number));
@@ -203,19 +196,12 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Without a state to go back to, the last save.
-    fn offer_an_earlier_checkpoint(&self, failure: &mut Failure) {
-        let saved = self.options.out.join(CHECKPOINT);
-        failure.checkpoint = saved.exists().then_some(saved);
-    }
-
     fn sum_up(&self, failure: &mut Failure) {
         let name = |p: &PathBuf| Some(p.file_name()?.to_str()?.to_string());
         let files = failure.pictures.iter().chain(&failure.bad_state);
         let files = files.chain(&failure.checkpoint);
         failure.findings.files = files.filter_map(name).collect();
-        let told = &self.parts.flow.remedies;
-        let all = remedies(self.scene, &failure.cause, &failure.findings, told);
+        let all = remedies(self.scene, failure, &self.parts.flow.remedies);
         let leak = self.leak_at(&failure.cause);
         let leak = leak.map(|leak| format!("mend the wall beside the particle, {}", leak.text));
         failure.findings.advice = leak.into_iter().chain(all).collect();

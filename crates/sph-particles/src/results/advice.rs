@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use sph_solver::step::LISTS_NAME;
 
+use crate::results::summary::Summary;
+
 /// Share of the steps, or of the time, above which something is worth a word.
 const MOST: f64 = 0.5;
 /// Fewest steps for shares to count.
@@ -19,24 +21,6 @@ const LIQUID: f64 = 0.1;
 /// The bound of sound, by the name that [`sound_limit`](sph_contribution::sound_limit) gives it.
 const SOUND: &str = "sound";
 
-/// Cost of a run, and its reasons.
-pub struct Costs<'a> {
-    /// Steps taken.
-    pub steps: u64,
-    /// Wall-clock time, s.
-    pub wall_seconds: f64,
-    /// Share of the steps limited by each bound.
-    pub dt_limiters: &'a BTreeMap<String, f64>,
-    /// Remedy of a bound, where its plugin has one.
-    pub remedies: &'a BTreeMap<String, String>,
-    /// Mean of every bound, s.
-    pub dt_limits: &'a BTreeMap<String, f64>,
-    /// Wall-clock time per stage, s.
-    pub stages: &'a BTreeMap<String, f64>,
-    /// Factor by which all speeds of sound may fall ([`room_of_sound`]).
-    pub sound: f64,
-}
-
 /// Factor by which the speeds of sound may fall, below 1 if they should rise: ten times the largest speed is enough, and
 /// densities may move by 1 %, as u²/c² and p/ρc² do. `density` is the least and the largest over that at rest.
 pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
@@ -44,9 +28,11 @@ pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
     (LIQUID / mach).min((LIQUID.powi(2) / moved[0].max(moved[1])).sqrt())
 }
 
-/// Settings to try, with their possible gains.
-pub fn advice(costs: &Costs) -> Vec<String> {
-    limiter(costs).into_iter().chain(stage(costs)).collect()
+/// Settings to try, with their possible gains, by the costs in a summary; `remedies` are those of bounds whose plugin
+/// has one, and all speeds of sound may fall by the factor `sound` ([`room_of_sound`]).
+pub fn advice(costs: &Summary, remedies: &BTreeMap<String, String>, sound: f64) -> Vec<String> {
+    let limiter = limiter(costs, remedies, sound).into_iter();
+    limiter.chain(stage(costs)).collect()
 }
 
 /// Mean of every bound, s: steps over the sum of 1/Δt, so that bounds that hold seldom count little.
@@ -59,29 +45,25 @@ pub fn mean_limits(inverse_sums: &BTreeMap<String, f64>, steps: u64) -> BTreeMap
 }
 
 /// The bound that takes most steps, and the one that would be next.
-fn limiter(s: &Costs) -> Option<String> {
+fn limiter(s: &Summary, remedies: &BTreeMap<String, String>, sound: f64) -> Option<String> {
     let (name, share) = s.dt_limiters.iter().find(|(_, share)| **share > MOST)?;
     let own = *s.dt_limits.get(name)?;
     let others = s.dt_limits.iter().filter(|(n, _)| *n != name);
     let next = others.min_by(|a, b| a.1.total_cmp(b.1));
-    let factor = next.map(|(_, dt)| dt / own);
-    let room = (name == SOUND).then_some(s.sound);
-    let vain = factor.is_some_and(|f| f < WORTH) || room.is_some_and(|f| f < ROOMY);
+    let next = next.map(|(name, dt)| (name, dt / own));
+    let room = (name == SOUND).then_some(sound);
+    let vain = next.is_some_and(|(_, f)| f < WORTH) || room.is_some_and(|f| f < ROOMY);
     if s.steps < FEW_STEPS || vain {
         return None;
     }
-    let then = match (next, factor) {
-        (Some((next, _)), Some(factor)) => format!(
-            "the next bound, `{next}`, is {} times as long",
-            significant(factor)
-        ),
-        _ => "no other bound is in force".to_string(),
+    let then = match next.map(|(next, factor)| (next, significant(factor))) {
+        Some((next, times)) => format!("the next bound, `{next}`, is {times} times as long"),
+        None => "no other bound is in force".to_string(),
     };
-    let room = room.map_or(String::new(), |f| match f.is_finite() {
-        true => format!(": here for a factor of {}", significant(f)),
-        false => String::new(),
-    });
-    let what = match s.remedies.get(name) {
+    let room = room.filter(|f| f.is_finite());
+    let room = room.map(|f| format!(": here for a factor of {}", significant(f)));
+    let room = room.unwrap_or_default();
+    let what = match remedies.get(name) {
         Some(remedy) => format!("{remedy}{room}; {then}"),
         None => format!("{then}; a coarser `numerics.spacing` lengthens it"),
     };
@@ -90,13 +72,14 @@ fn limiter(s: &Costs) -> Option<String> {
 }
 
 /// A stage beside the sweeps, which are the work itself, that takes most of the time.
-fn stage(s: &Costs) -> Option<String> {
-    let all: f64 = s.stages.values().sum();
-    let (name, seconds) = s.stages.iter().find(|(_, t)| **t > MOST * all)?;
+fn stage(s: &Summary) -> Option<String> {
+    let stages = &s.wall_seconds_by_stage;
+    let all: f64 = stages.values().sum();
+    let (name, seconds) = stages.iter().find(|(_, t)| **t > MOST * all)?;
     if seconds.min(s.wall_seconds) < SHORT {
         return None;
     }
-    let share = seconds / all;
+    let share = 100.0 * (seconds / all);
     let what = match name.as_str() {
         "output" => "a longer `output.every` and `output.series_every`, or `output.vtk = false`",
         LISTS_NAME => "a larger `numerics.skin`, so that lists last longer",
@@ -106,8 +89,7 @@ fn stage(s: &Costs) -> Option<String> {
         _ => return None,
     };
     Some(format!(
-        "`{name}` takes {:.0} % of the time: try {what}",
-        100.0 * share
+        "`{name}` takes {share:.0} % of the time: try {what}"
     ))
 }
 
@@ -138,17 +120,16 @@ mod tests {
 
     fn with_room(sound: f64, shares: &Pairs, limits: &Pairs, stages: &Pairs) -> Vec<String> {
         let remedies = [("viscosity", "solve for it"), ("sound", "lower it")];
-        advice(&Costs {
+        let remedies = remedies.map(|(n, what)| (n.to_string(), what.to_string()));
+        let costs = Summary {
             steps: 1000,
             wall_seconds: 100.0,
-            dt_limiters: &table(shares),
-            remedies: &remedies
-                .map(|(n, what)| (n.to_string(), what.to_string()))
-                .into(),
-            dt_limits: &table(limits),
-            stages: &table(stages),
-            sound,
-        })
+            dt_limiters: table(shares),
+            dt_limits: table(limits),
+            wall_seconds_by_stage: table(stages),
+            ..Summary::default()
+        };
+        advice(&costs, &remedies.into(), sound)
     }
 
     #[test]

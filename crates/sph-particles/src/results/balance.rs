@@ -36,14 +36,12 @@ pub struct Balance<const D: usize> {
     pub mach: f64,
     /// Mass that is faster than [`FAST`], [`COMPRESSIBLE`] and [`SUPERSONIC`] of its sound, kg.
     pub faster: [f64; 3],
-    /// Least density over reference density.
-    pub least_density: f64,
-    /// Largest density over reference density.
-    pub largest_density: f64,
+    /// Least and largest density over reference density.
+    pub density_range: [f64; 2],
 }
 
 impl<const D: usize> Balance<D> {
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         Balance {
             mass: 0.0,
             momentum: Vect::zeros(),
@@ -55,12 +53,12 @@ impl<const D: usize> Balance<D> {
             fastest: 0.0,
             mach: 0.0,
             faster: [0.0; 3],
-            least_density: f64::INFINITY,
-            largest_density: f64::NEG_INFINITY,
+            density_range: [f64::INFINITY, f64::NEG_INFINITY],
         }
     }
 
     fn and(self, o: Self) -> Self {
+        let ([least, largest], [low, high]) = (self.density_range, o.density_range);
         Balance {
             mass: self.mass + o.mass,
             momentum: self.momentum + o.momentum,
@@ -72,9 +70,21 @@ impl<const D: usize> Balance<D> {
             fastest: self.fastest.max(o.fastest),
             mach: self.mach.max(o.mach),
             faster: std::array::from_fn(|k| self.faster[k] + o.faster[k]),
-            least_density: self.least_density.min(o.least_density),
-            largest_density: self.largest_density.max(o.largest_density),
+            density_range: [least.min(low), largest.max(high)],
         }
+    }
+
+    /// Name, unit and value of its columns in the series, besides those of the momentum.
+    pub fn columns(&self) -> [(&'static str, &'static str, f64); 6] {
+        let [least, largest] = self.density_range;
+        [
+            ("kinetic_energy", "J", self.kinetic),
+            ("potential_energy", "J", self.potential),
+            ("internal_energy", "J", self.internal),
+            ("largest_speed", "m/s", self.fastest),
+            ("least_density_ratio", "1", least),
+            ("largest_density_ratio", "1", largest),
+        ]
     }
 
     /// Kinetic, potential and internal energy together, J.
@@ -114,8 +124,7 @@ impl<const D: usize> Balance<D> {
                 mach,
                 faster: [FAST, COMPRESSIBLE, SUPERSONIC]
                     .map(|most| if mach > most { m } else { 0.0 }),
-                least_density: ratio,
-                largest_density: ratio,
+                density_range: [ratio; 2],
             }
         };
         let batch = |b: usize| {

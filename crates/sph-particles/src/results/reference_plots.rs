@@ -5,11 +5,11 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use sph_io::{Plot, Series, read_table};
-use sph_probes::norm;
 use sph_scene::{Norm, Scene};
 
-use crate::failure::error::RunError;
-use crate::setup::reference_table;
+use crate::failure::error::Result;
+use crate::results::references::measured;
+use crate::setup::reference_series;
 
 /// More points than this are drawn as a line: markers would cover one another, and the run.
 const MOST_MARKERS: usize = 200;
@@ -21,54 +21,42 @@ const LONGEST: usize = 40;
 const BEYOND: f64 = 0.05;
 
 /// A picture of every probe beside its reference, `plots/NAME.png`.
-pub fn plots(scene: &Scene, folder: &Path) -> Result<(), RunError> {
-    let compared = scene.reference.iter().filter(|(_, r)| r.probe.is_some());
-    let compared: Vec<_> = compared.filter(|(_, r)| r.path.is_some()).collect();
+pub fn plots(scene: &Scene, folder: &Path) -> Result<()> {
+    let compared = scene.reference.iter().filter_map(|(name, r)| {
+        let (probe, path) = r.probe.as_ref().zip(r.path.as_ref())?;
+        Some((name, r, probe, path))
+    });
+    let compared: Vec<_> = compared.collect();
     if compared.is_empty() {
         return Ok(());
     }
-    let measured = read_table(folder.join("series.csv"))?;
+    let table = read_table(folder.join("series.csv"))?;
     let plots = folder.join("plots");
     sph_io::writable(&plots)?;
-    for (name, reference) in compared {
-        let (Some(probe), Some(path)) = (&reference.probe, &reference.path) else {
+    for (name, reference, probe, path) in compared {
+        let Some((times, values)) = measured(&table, reference, probe) else {
             continue;
         };
-        let times = measured.column("time").unwrap_or(&[]);
-        let Some(values) = measured.column(probe) else {
+        let Ok([at, low, high]) = reference_series(reference, path) else {
             continue;
         };
-        let values = match reference.average {
-            Some(width) => norm::moving_mean(times, values, width),
-            None => values.to_vec(),
-        };
-        let mut columns = measured.columns.iter();
-        let unit = columns.find(|c| c.name == *probe).map(|c| &*c.unit);
-        let Ok(table) = reference_table(reference, path) else {
-            continue;
-        };
-        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
-            let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
-            column.iter().map(|v| v * scale + offset).collect()
-        };
-        let at = scaled(0, reference.scale_time, reference.offset_time);
         let shown = shown(&at, scene.run.end);
         let of = |column: Vec<f64>| -> Vec<f64> {
             let of_column = shown.iter().filter_map(|k| column.get(*k));
             of_column.copied().collect()
         };
-        let value = |k: usize| of(scaled(k, reference.scale_value, reference.offset_value));
-        let at = of(at);
         let pairs = |x: &[f64], y: &[f64]| -> Vec<[f64; 2]> {
             x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
         };
+        let lower = pairs(&of(at), &of(low));
         let source = source(path).unwrap_or_else(|| name.clone());
         let given = match reference.norm() {
-            Norm::Band => Series::band(format!("band: {source}"), pairs(&at, &value(1)), value(2)),
-            _ if at.len() > MOST_MARKERS => Series::line(source, pairs(&at, &value(1))),
-            _ => Series::markers(source, pairs(&at, &value(1))),
+            Norm::Band => Series::band(format!("band: {source}"), lower, of(high)),
+            _ if lower.len() > MOST_MARKERS => Series::line(source, lower),
+            _ => Series::markers(source, lower),
         };
-        let y_label = match unit {
+        let column = table.columns.iter().find(|c| c.name == *probe);
+        let y_label = match column.map(|c| &*c.unit) {
             None | Some("" | "1") => probe.clone(),
             Some(unit) => format!("{probe} [{unit}]"),
         };

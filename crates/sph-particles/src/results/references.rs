@@ -9,49 +9,39 @@ use sph_probes::{Solution, norm};
 use sph_scene::{Norm, Reference, Scene};
 use sph_solver::Flow;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::results::summary::ErrorEntry;
-use crate::setup::field_error::Compared;
-use crate::setup::{field_error, reference_table};
-
-type Solutions<const D: usize> = [(String, Box<dyn Solution<D>>)];
+use crate::setup::field_error::beside_solution;
+use crate::setup::{Assembled, field_error, reference_series};
 
 /// Every reference that can be compared; the others become warnings.
 pub fn errors<const D: usize>(
     scene: &Scene,
-    flow: &Flow<D>,
-    solutions: &Solutions<D>,
+    shown: &Assembled<D>,
     series: &Path,
     warnings: &mut Vec<String>,
-) -> Result<BTreeMap<String, ErrorEntry>, RunError> {
+) -> Result<BTreeMap<String, ErrorEntry>> {
     let mut errors = BTreeMap::new();
     let in_series = |r: &Reference| r.probe.is_some() || r.norm() == Norm::L2Mean;
-    let measured = match scene.reference.values().any(in_series) {
+    let series = match scene.reference.values().any(in_series) {
         true => Some(read_table(series)?),
         false => None,
     };
     for (name, reference) in &scene.reference {
-        let solution = solutions.iter().find(|(n, _)| n == name).map(|(_, s)| &**s);
-        let entry = match (&reference.field, &reference.probe, &measured) {
+        let solution = shown.solutions.iter().find(|(n, _)| n == name);
+        let solution = solution.map(|(_, s)| &**s);
+        let entry = match (&reference.field, &reference.probe, &series) {
             (Some(_), _, Some(table)) if reference.norm() == Norm::L2Mean => {
                 let times = table.column("time").unwrap_or(&[]);
                 let column = field_error::column(name);
                 let values = table.column(&column).ok_or_else(|| absent(&column));
                 values.and_then(|values| averaged(reference, times, values))
             }
-            (Some(field), _, _) => against_field(flow, reference, field, solution),
-            (None, Some(probe), Some(table)) => {
-                let column = table.column(probe).map(<[f64]>::to_vec);
-                let times = table.column("time").unwrap_or(&[]);
-                let values = column.ok_or_else(|| absent(probe));
-                values.and_then(|values| {
-                    let values = match reference.average {
-                        Some(width) => norm::moving_mean(times, &values, width),
-                        None => values,
-                    };
-                    against_series(reference, times, &values, solution)
-                })
-            }
+            (Some(field), _, _) => against_field(&shown.flow, reference, field, solution),
+            (None, Some(probe), Some(table)) => match measured(table, reference, probe) {
+                Some((times, values)) => against_series(reference, times, &values, solution),
+                None => Err(absent(probe)),
+            },
             _ => Err("it names neither a field nor a probe".to_string()),
         };
         match entry {
@@ -62,6 +52,19 @@ pub fn errors<const D: usize>(
         }
     }
     Ok(errors)
+}
+
+/// Times and values of a probe in the series, smoothed where its reference is.
+pub fn measured<'t>(
+    series: &'t Table,
+    reference: &Reference,
+    probe: &str,
+) -> Option<(&'t [f64], Vec<f64>)> {
+    let times = series.column("time").unwrap_or(&[]);
+    let values = series.column(probe)?;
+    let smoothed = reference.average;
+    let smoothed = smoothed.map(|width| norm::moving_mean(times, values, width));
+    Some((times, smoothed.unwrap_or_else(|| values.to_vec())))
 }
 
 fn absent(column: &str) -> String {
@@ -103,11 +106,7 @@ fn against_field<const D: usize>(
     let time = flow.world.time;
     let volume = flow.world.free.get(fields::VOLUME);
     let volume = volume.map_err(|e| e.to_string())?;
-    let Compared {
-        values,
-        exact,
-        components,
-    } = Compared::with_solution(&flow.world, field, solution)?;
+    let (values, exact, components) = beside_solution(&flow.world, field, solution)?;
     let difference: Vec<f64> = values.iter().zip(&exact).map(|(u, e)| u - e).collect();
     let value = match reference.norm() {
         Norm::L2 => norm::l2(&values, &exact, volume, components),
@@ -165,143 +164,83 @@ fn against_series<const D: usize>(
     values: &[f64],
     solution: Option<&dyn Solution<D>>,
 ) -> Result<ErrorEntry, String> {
-    match reference.norm() {
-        Norm::DecayRate => return decay(reference, times, values, solution),
-        _ if reference.stands_alone() => return averaged(reference, times, values),
-        _ => {}
+    if reference.norm() == Norm::DecayRate {
+        let exact = solution.and_then(|s| s.energy_rate());
+        let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
+        let pairs = times.iter().zip(values);
+        let pairs = pairs.filter(|(t, v)| counts(reference, **t) && **v > 0.0);
+        let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
+        if t.len() < 2 {
+            return Err("fewer than two rows of the series count".into());
+        }
+        let window = [t[0], t[t.len() - 1]];
+        let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
+        return Ok(entry(value, reference, t.len(), window));
+    }
+    if reference.stands_alone() {
+        return averaged(reference, times, values);
     }
     let path = reference.path.as_ref();
     let path = path.ok_or("a probe is compared with a `file`, or by the norm `decay-rate`")?;
     // It was good when the run began; results computed since are not lost with it.
-    let table = reference_table(reference, path).map_err(|gone| gone.to_string())?;
-    let samples = Samples::from_table(reference, &table, times, values);
-    let samples = samples.ok_or("no time of the reference lies within the run")?;
-    samples.error(reference, [times, values])
+    let table = reference_series(reference, path).map_err(|gone| gone.to_string())?;
+    against_table(reference, &table, [times, values])
 }
 
-/// A series where a reference has values, and both there.
-struct Samples {
-    instants: Vec<f64>,
-    /// Values of the reference.
-    compared: Vec<f64>,
-    /// Series less reference.
-    differences: Vec<f64>,
-    /// Share of the time outside of the band.
-    outside: f64,
-    /// Relative error at the last instant.
-    last: f64,
-    /// First and last instant, s.
-    window: [f64; 2],
-}
-
-impl Samples {
-    /// At the instants of a table that count; none if none does.
-    fn from_table(
-        reference: &Reference,
-        table: &Table,
-        times: &[f64],
-        values: &[f64],
-    ) -> Option<Self> {
-        let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
-            let column = table.columns[k].values.iter();
-            column.map(|v| v * scale + offset).collect()
-        };
-        let at = scaled(0, reference.scale_time, reference.offset_time);
-        let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
-        let low = value(1);
-        let high = (reference.norm() == Norm::Band && table.columns.len() > 2).then(|| value(2));
-        let weights = norm::time_weights(&at);
-        let (mut outside, mut whole) = (0.0, 0.0);
-        let mut last = None;
-        let mut samples = Samples {
-            instants: Vec::new(),
-            compared: Vec::new(),
-            differences: Vec::new(),
-            outside: 0.0,
-            last: 0.0,
-            window: [f64::INFINITY, f64::NEG_INFINITY],
-        };
-        let counted = at.iter().enumerate();
-        for (k, &t) in counted.filter(|(_, t)| counts(reference, **t)) {
-            let Some(u) = norm::at(times, values, t).filter(|u| u.is_finite()) else {
-                continue;
-            };
-            samples.window = [samples.window[0].min(t), samples.window[1].max(t)];
-            samples.differences.push(u - low[k]);
-            samples.compared.push(low[k]);
-            samples.instants.push(t);
-            if let Some(high) = &high {
-                let out = u < low[k] || u > high[k];
-                outside += if out { weights[k] } else { 0.0 };
-                whole += weights[k];
-            }
-            if last.is_none_or(|(before, _)| t >= before) {
-                last = Some((t, ((u - low[k]) / low[k]).abs()));
-            }
-        }
-        samples.outside = outside / whole;
-        samples.last = last?.1;
-        Some(samples)
-    }
-
-    /// The error by the norm of the reference; the whole series is there for norms that look between instants.
-    fn error(&self, reference: &Reference, series: [&[f64]; 2]) -> Result<ErrorEntry, String> {
-        let Samples {
-            instants,
-            compared,
-            differences,
-            ..
-        } = self;
-        let n = differences.len();
-        let ones = vec![1.0; n];
-        let both = compared.iter().zip(differences);
-        let exact_plus: Vec<f64> = both.map(|(e, d)| e + d).collect();
-        let value = match reference.norm() {
-            Norm::RmsOverRange => norm::rms_over_range(differences, compared),
-            Norm::Band => self.outside,
-            Norm::Final => self.last,
-            Norm::Absolute => largest(differences),
-            Norm::L2 => norm::l2(&exact_plus, compared, &ones, 1),
-            Norm::L1 => norm::l1(&exact_plus, compared, 1),
-            Norm::Linf => norm::linf(&exact_plus, compared, 1),
-            Norm::Range => norm::range_error(&exact_plus, compared),
-            Norm::PeakTime => {
-                let peak = |values: &[f64]| norm::peak_time(instants, values).unwrap_or(f64::NAN);
-                (peak(&exact_plus) / peak(compared) - 1.0).abs()
-            }
-            Norm::Lag => {
-                let period = reference.period;
-                let period = period.ok_or("the norm `lag` needs the `period`")?;
-                let found = norm::lag(series, [instants, compared], 0.5 * period);
-                found.map_or(f64::NAN, |lag| lag.abs() / period)
-            }
-            Norm::Rms
-            | Norm::Amplitude
-            | Norm::DecayRate
-            | Norm::L2Mean
-            | Norm::Mean
-            | Norm::ErrorMean
-            | Norm::Period => return Err("this norm is for fields".into()),
-        };
-        Ok(entry(value, reference, n, self.window))
-    }
-}
-
-fn decay<const D: usize>(
+/// A series where a table has values that count, and both there.
+fn against_table(
     reference: &Reference,
-    times: &[f64],
-    values: &[f64],
-    solution: Option<&dyn Solution<D>>,
+    [at, low, high]: &[Vec<f64>; 3],
+    series: [&[f64]; 2],
 ) -> Result<ErrorEntry, String> {
-    let exact = solution.and_then(|s| s.energy_rate());
-    let exact = exact.ok_or("the norm `decay-rate` needs a solution with a constant rate")?;
-    let pairs = times.iter().zip(values);
-    let pairs = pairs.filter(|(t, v)| counts(reference, **t) && **v > 0.0);
-    let (t, ln): (Vec<f64>, Vec<f64>) = pairs.map(|(t, v)| (*t, v.ln())).unzip();
-    if t.len() < 2 {
-        return Err("fewer than two rows of the series count".into());
+    let weights = norm::time_weights(at);
+    let (mut instants, mut compared, mut differences) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut outside, mut whole) = (0.0, 0.0);
+    let mut window = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut last = None;
+    let counted = at.iter().enumerate();
+    for (k, &t) in counted.filter(|(_, t)| counts(reference, **t)) {
+        let Some(u) = norm::at(series[0], series[1], t).filter(|u| u.is_finite()) else {
+            continue;
+        };
+        window = [window[0].min(t), window[1].max(t)];
+        differences.push(u - low[k]);
+        compared.push(low[k]);
+        instants.push(t);
+        if let Some(high) = high.get(k) {
+            let out = u < low[k] || u > *high;
+            outside += if out { weights[k] } else { 0.0 };
+            whole += weights[k];
+        }
+        if last.is_none_or(|(before, _)| t >= before) {
+            last = Some((t, ((u - low[k]) / low[k]).abs()));
+        }
     }
-    let window = [t[0], t[t.len() - 1]];
-    let value = (norm::slope(&t, &ln) / exact - 1.0).abs();
-    Ok(entry(value, reference, t.len(), window))
+    let (_, last) = last.ok_or("no time of the reference lies within the run")?;
+    let n = differences.len();
+    let both = compared.iter().zip(&differences);
+    let exact_plus: Vec<f64> = both.map(|(e, d)| e + d).collect();
+    let value = match reference.norm() {
+        Norm::RmsOverRange => norm::rms_over_range(&differences, &compared),
+        Norm::Band => outside / whole,
+        Norm::Final => last,
+        Norm::Absolute => largest(&differences),
+        Norm::L2 => norm::l2(&exact_plus, &compared, &vec![1.0; n], 1),
+        Norm::L1 => norm::l1(&exact_plus, &compared, 1),
+        Norm::Linf => norm::linf(&exact_plus, &compared, 1),
+        Norm::Range => norm::range_error(&exact_plus, &compared),
+        Norm::PeakTime => {
+            let peak = |values: &[f64]| norm::peak_time(&instants, values).unwrap_or(f64::NAN);
+            (peak(&exact_plus) / peak(&compared) - 1.0).abs()
+        }
+        Norm::Lag => {
+            let period = reference.period;
+            let period = period.ok_or("the norm `lag` needs the `period`")?;
+            // The whole series: it is looked at between instants.
+            let found = norm::lag(series, [&instants, &compared], 0.5 * period);
+            found.map_or(f64::NAN, |lag| lag.abs() / period)
+        }
+        _ => return Err("this norm is for fields".into()),
+    };
+    Ok(entry(value, reference, n, window))
 }

@@ -6,9 +6,8 @@ use std::path::Path;
 use sph_run::{RunCounters, SERIES, SUMMARY, Status};
 use sph_solver::OutletTotals;
 
-use crate::failure::error::{Failure, RunError};
+use crate::failure::error::{Failure, Result};
 use crate::results::advice;
-use crate::results::advice::Costs;
 use crate::results::balance::{Balance, FAST};
 use crate::results::summary::{Drift, ErrorEntry, SCHEMA_VERSION, Summary};
 use crate::results::{reference_plots, references};
@@ -18,12 +17,12 @@ use crate::setup::Memory;
 
 impl<const D: usize> Running<'_, D> {
     /// Content of `summary.json`.
-    pub(crate) fn summary(
+    pub fn summary(
         &mut self,
         status: Status,
         failure: Option<&Failure>,
         books: &RunCounters,
-    ) -> Result<Summary, RunError> {
+    ) -> Result<Summary> {
         let flow = &self.shown().flow;
         let world = &flow.world;
         let mut warnings = self.parts.warnings.clone();
@@ -36,26 +35,20 @@ impl<const D: usize> Running<'_, D> {
             _ => self.compare(&mut warnings)?,
         };
         let balance = Balance::from_flow(flow)?;
-        let drift = self.drift(&balance);
         let steps = self.counters.steps;
         let particles = world.free.len();
         let stage_seconds = self.stage_seconds(books);
-        let wall_seconds = books.wall_seconds;
-        let working = wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
+        let working = books.wall_seconds - stage_seconds.get("output").copied().unwrap_or(0.0);
         let neighbours = self.around.mean_neighbours();
         let work = particles as f64 * steps as f64;
         let threads = rayon::current_num_threads();
         let ranks = self.shares.len().max(1);
         let limited = self.counters.limited.iter();
         let share = |(name, n): (&String, &u64)| (name.clone(), *n as f64 / steps.max(1) as f64);
-        let dt_limiters = limited.map(share).collect();
-        let dt_limits = advice::mean_limits(&self.counters.bounds, steps);
-        let mut advice = self.advise(wall_seconds, [&dt_limiters, &dt_limits], &stage_seconds)?;
-        let escaped = flow.escaped_from(self.walls())?;
-        let mach = self.say_what_is_odd(escaped, &mut warnings, &mut advice);
+        let [_, mach, _] = self.extrema.peaks;
         let hooks = self.parts.flow.reports().map(|r| r.most_bytes);
         let solves: usize = hooks.chain(self.counters.stage_bytes.iter().copied()).sum();
-        Ok(Summary {
+        let mut summary = Summary {
             schema_version: SCHEMA_VERSION,
             scene: self.scene.title.clone(),
             status,
@@ -69,7 +62,7 @@ impl<const D: usize> Running<'_, D> {
             steps_rolled_back: self.counters.rolled_back,
             simulated_seconds: world.time,
             started_at: self.counters.started_at.map(f64::from_bits),
-            wall_seconds,
+            wall_seconds: books.wall_seconds,
             wall_seconds_by_stage: stage_seconds,
             threads,
             ranks: self.shares.clone(),
@@ -78,10 +71,10 @@ impl<const D: usize> Running<'_, D> {
             bytes_per_particle: world.free.bytes_per_particle(),
             memory: Memory::estimate(self.scene, &self.parts.flow, solves as f64)?,
             list_builds: world.lists.builds,
-            dt_limiters,
-            dt_limits,
-            advice,
-            drift,
+            dt_limiters: limited.map(share).collect(),
+            dt_limits: advice::mean_limits(&self.counters.bounds, steps),
+            advice: Vec::new(),
+            drift: self.drift(&balance),
             kinetic_energy: balance.kinetic,
             density_range: self.extrema.density_range,
             mach,
@@ -89,14 +82,19 @@ impl<const D: usize> Running<'_, D> {
             first_trouble: self.counters.first_trouble.clone(),
             failure: failure.map(|f| f.findings.clone()),
             density_constant_range: flow.density_constant_range(),
-            escaped,
+            escaped: flow.escaped_from(self.walls())?,
             left: self.left(),
             relaxation: self.parts.relaxation,
             counts: self.parts.flow.counts_of_summary(),
             errors,
             warnings,
             files: listing(&self.options.out),
-        })
+        };
+        let remedies = flow.remedies_of_bounds()?;
+        let sound = advice::room_of_sound(mach, summary.density_range);
+        summary.advice = advice::advice(&summary, &remedies, sound);
+        self.say_what_is_odd(&mut summary);
+        Ok(summary)
     }
 
     /// Particles that left by the scene's exits, and by the border of the domain if there are any.
@@ -109,38 +107,14 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Errors against references, whose pictures are drawn, too.
-    fn compare(
-        &self,
-        warnings: &mut Vec<String>,
-    ) -> Result<BTreeMap<String, ErrorEntry>, RunError> {
+    fn compare(&self, warnings: &mut Vec<String>) -> Result<BTreeMap<String, ErrorEntry>> {
         let (scene, out) = (self.scene, &self.options.out);
-        let (flow, solutions) = (&self.shown().flow, &self.shown().solutions);
-        let series = out.join(SERIES);
-        let errors = references::errors(scene, flow, solutions, &series, warnings)?;
+        let errors = references::errors(scene, self.shown(), &out.join(SERIES), warnings)?;
         if let Err(error) = reference_plots::plots(scene, out) {
             // A plot is a convenience: its failure must not cost the result.
             warnings.push(format!("the plots were not written: {error}"));
         }
         Ok(errors)
-    }
-
-    /// Advice for a shorter run.
-    fn advise(
-        &self,
-        wall_seconds: f64,
-        [dt_limiters, dt_limits]: [&BTreeMap<String, f64>; 2],
-        stages: &BTreeMap<String, f64>,
-    ) -> Result<Vec<String>, RunError> {
-        let [_, mach, _] = self.extrema.peaks;
-        Ok(advice::advice(&Costs {
-            steps: self.counters.steps,
-            wall_seconds,
-            dt_limiters,
-            remedies: &self.shown().flow.remedies_of_bounds()?,
-            dt_limits,
-            stages,
-            sound: advice::room_of_sound(mach, self.extrema.density_range),
-        }))
     }
 
     /// Changes of conserved quantities since the start.
@@ -162,15 +136,11 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Adds remarks of hooks, on particles behind walls and on speeds near that of sound; gives the largest Mach
-    /// number.
-    fn say_what_is_odd(
-        &self,
-        escaped: usize,
-        warnings: &mut Vec<String>,
-        advice: &mut Vec<String>,
-    ) -> f64 {
+    /// Adds remarks of hooks, on particles behind walls and on speeds near that of sound.
+    fn say_what_is_odd(&self, summary: &mut Summary) {
         let flow = &self.shown().flow;
+        let escaped = summary.escaped;
+        let (warnings, advice) = (&mut summary.warnings, &mut summary.advice);
         let reports: Vec<_> = flow.reports().collect();
         advice.extend(reports.iter().flat_map(|r| r.advice.clone()));
         if flow.world.free.is_empty() {
@@ -198,7 +168,7 @@ impl<const D: usize> Running<'_, D> {
         let (over, remedy) = self.departure.remarks();
         warnings.extend(over);
         advice.extend(remedy);
-        let [_, mach, fast] = self.extrema.peaks;
+        let [.., fast] = self.extrema.peaks;
         if fast > SHARE {
             advice.push(format!(
                 "{:.0} % of the mass was faster than {FAST} of the speed of sound, where the density of a liquid \
@@ -206,7 +176,6 @@ impl<const D: usize> Running<'_, D> {
                 100.0 * fast
             ));
         }
-        mach
     }
 }
 

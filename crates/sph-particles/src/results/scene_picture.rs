@@ -8,7 +8,7 @@ use sph_scene::Scene;
 use sph_solver::Flow;
 use toml::{Table, Value};
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::drawn_flow::{drawn_walls, padded};
 use crate::running::pieces::points;
 use crate::setup::{Assembled, assemble, box_around, corner};
@@ -31,7 +31,7 @@ const FAR: f64 = 0.25;
 ///
 /// # Errors
 /// As [`assemble`]; a file that cannot be written.
-pub fn draw_scene(scene: &Scene, path: &Path) -> Result<(), RunError> {
+pub fn draw_scene(scene: &Scene, path: &Path) -> Result<()> {
     match scene.dimension {
         3 => draw::<3>(scene, path),
         _ => draw::<2>(scene, path),
@@ -51,7 +51,7 @@ struct Notes<const D: usize> {
     tick: f64,
 }
 
-fn draw<const D: usize>(scene: &Scene, path: &Path) -> Result<(), RunError> {
+fn draw<const D: usize>(scene: &Scene, path: &Path) -> Result<()> {
     let parts = assemble::<D>(scene)?;
     let flow = &parts.flow;
     let places = points(flow)?;
@@ -89,7 +89,7 @@ fn draw<const D: usize>(scene: &Scene, path: &Path) -> Result<(), RunError> {
 }
 
 impl<const D: usize> Notes<D> {
-    fn around(flow: &Flow<D>) -> Result<Self, RunError> {
+    fn around(flow: &Flow<D>) -> Result<Self> {
         let particles = flow.world.free.get(fields::POSITION)?;
         let [low, high] = box_around(particles.iter().chain(&flow.world.walls.points.position));
         let wide = (high - low).max();
@@ -166,7 +166,7 @@ impl<const D: usize> Notes<D> {
     }
 
     /// Every body's name in its middle.
-    fn bodies(&mut self, scene: &Scene, parts: &Assembled<D>) -> Result<(), RunError> {
+    fn bodies(&mut self, scene: &Scene, parts: &Assembled<D>) -> Result<()> {
         let places = parts.flow.world.free.get(fields::POSITION)?;
         for (number, name) in scene.body.keys().enumerate() {
             let of = places.iter().zip(&parts.body_of);

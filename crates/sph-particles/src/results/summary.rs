@@ -67,7 +67,8 @@ pub struct Drift {
 }
 
 /// All that is known of a run at its end.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Summary {
     /// Layout of this file.
     pub schema_version: u32,
@@ -94,7 +95,7 @@ pub struct Summary {
     /// Simulated time, s.
     pub simulated_seconds: f64,
     /// Time at which the run took over the state of another, s, if it did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub started_at: Option<f64>,
     /// Wall-clock time of all parts of the run, s.
     pub wall_seconds: f64,
@@ -103,7 +104,7 @@ pub struct Summary {
     /// Threads of the last part.
     pub threads: usize,
     /// Every rank's share; nothing where one process ran all.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ranks: Vec<RankShare>,
     /// Particles times steps per second.
     pub particle_steps_per_second: f64,
@@ -112,7 +113,6 @@ pub struct Summary {
     /// Bytes of the columns per particle.
     pub bytes_per_particle: usize,
     /// Memory by its use, bytes.
-    #[serde(default)]
     pub memory: Memory,
     /// Builds of the neighbour lists.
     pub list_builds: u64,
@@ -122,7 +122,6 @@ pub struct Summary {
     #[serde(flatten)]
     pub counts: BTreeMap<String, Json>,
     /// Mean of each plugin's bound over the steps, s, before the safety factor.
-    #[serde(default)]
     pub dt_limits: BTreeMap<String, f64>,
     /// Changes of conserved quantities.
     pub drift: Drift,
@@ -131,31 +130,27 @@ pub struct Summary {
     /// Least and largest density over the reference, over all rows of the series.
     pub density_range: [f64; 2],
     /// Largest speed over the speed of sound of its phase, over all rows.
-    #[serde(default)]
     pub mach: f64,
     /// Least and mean distance of a free particle to its nearest neighbour at the end, over the spacing.
-    #[serde(default)]
     pub nearest: [f64; 2],
     /// The first step that failed, if any did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub first_trouble: Option<Trouble>,
     /// Report of a failed run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<Findings>,
     /// Least and largest K/ρ₀ at the end, where the formulation has a density constant.
     pub density_constant_range: Option<[f64; 2]>,
     /// Particles behind a wall at the end.
     pub escaped: usize,
     /// Particles and mass that left by outlets, by `outlet.NAME.PHASE`.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left: BTreeMap<String, OutletTotals>,
     /// The relaxation of the first particles, if the scene has one.
-    #[serde(default)]
     pub relaxation: Option<Relaxation>,
     /// Errors against the scene's references.
     pub errors: BTreeMap<String, ErrorEntry>,
     /// Settings to try where one bound or one stage costs most of the run, or speeds near that of sound.
-    #[serde(default)]
     pub advice: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,

@@ -8,11 +8,12 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Inserted, Plain, Role, Vect, fields};
 use sph_io::{Checkpoint, Column, ColumnData};
 use sph_neighbours::WallForce;
-use sph_run::Identity;
+use sph_run::{CHECKPOINT, Identity, RunOptions, Start, Watch};
 use sph_scene::Scene;
 use sph_solver::Flow;
+use sph_solver::step::Hooked;
 
-use crate::failure::error::RunError;
+use crate::failure::error::{Result, RunError};
 use crate::running::counters::{Counters, MOST};
 
 const REFERENCE: &str = "list_reference";
@@ -48,7 +49,7 @@ pub fn save<const D: usize, T: Serialize>(
     path: &Path,
     identity: &Identity,
     run: &T,
-) -> Result<(), RunError> {
+) -> Result<()> {
     let world = &flow.world;
     let column = |name: &str, components, data| Column {
         name: name.into(),
@@ -109,6 +110,36 @@ fn refused(path: &Path, reason: impl Into<String>) -> RunError {
     }
 }
 
+/// Puts the flow where the run begins, and returns the counts until there.
+pub fn begin<const D: usize>(
+    scene: &Scene,
+    options: &RunOptions,
+    flow: &mut Flow<D>,
+    observer: &mut Watch<'_>,
+) -> Result<Counters> {
+    let (start, own) = (&options.start, options.out.join(CHECKPOINT));
+    let mut counters = Counters::begin();
+    if start.goes_on() {
+        let identity = (*start == Start::Resumed).then_some(&options.identity);
+        counters = load(flow, scene, &own, identity)?;
+        flow.recount(&counters.left);
+        for Hooked { hook, .. } in &mut flow.hooks.all {
+            if let Some(counts) = counters.works.remove(&hook.name()) {
+                hook.resume(counts);
+            }
+        }
+        let (time, step) = (flow.world.time, counters.steps);
+        observer.message(&format!("resuming at t = {time:.6} s, step {step}"));
+    }
+    if let Start::From(other) = start {
+        start_from(flow, scene, other)?;
+        let (time, from) = (flow.world.time, other.display());
+        observer.message(&format!("starting at t = {time:.6} s from {from}"));
+        counters.started_at = Some(time.to_bits());
+    }
+    Ok(counters)
+}
+
 /// Puts a saved state into the assembled flow of a scene, which must be the same as before if an identity is given;
 /// returns the driver's saved state. A flow that had no lists gets none.
 pub fn load<const D: usize>(
@@ -116,7 +147,7 @@ pub fn load<const D: usize>(
     scene: &Scene,
     path: &Path,
     identity: Option<&Identity>,
-) -> Result<Counters, RunError> {
+) -> Result<Counters> {
     let blank = flow.is_blank();
     let (checkpoint, meta) = read::<D, Counters>(path)?;
     let mut counters = meta.run;
@@ -158,11 +189,7 @@ pub fn load<const D: usize>(
 /// Puts the particles of another run of the same bodies, with its time, into an assembled flow of other settings.
 ///
 /// The whole memory of the flow must be in the checkpoint; more is ignored.
-pub fn start_from<const D: usize>(
-    flow: &mut Flow<D>,
-    scene: &Scene,
-    path: &Path,
-) -> Result<(), RunError> {
+pub fn start_from<const D: usize>(flow: &mut Flow<D>, scene: &Scene, path: &Path) -> Result<()> {
     let blank = flow.is_blank();
     let (checkpoint, meta) = read::<D, serde::de::IgnoredAny>(path)?;
     believable(&meta.clock, scene, path)?;
@@ -181,9 +208,7 @@ pub fn start_from<const D: usize>(
     Ok(())
 }
 
-fn read<const D: usize, T: DeserializeOwned>(
-    path: &Path,
-) -> Result<(Checkpoint, Meta<T>), RunError> {
+fn read<const D: usize, T: DeserializeOwned>(path: &Path) -> Result<(Checkpoint, Meta<T>)> {
     let checkpoint = Checkpoint::load(path)?;
     let meta: Meta<T> = serde_json::from_value(checkpoint.meta.clone())
         .map_err(|e| refused(path, format!("its header is not one of this version ({e})")))?;
@@ -208,7 +233,7 @@ fn fill<const D: usize>(
     checkpoint: &Checkpoint,
     clock: &Clock,
     path: &Path,
-) -> Result<(), RunError> {
+) -> Result<()> {
     if let Some((identities, mass, particles)) = clock.born {
         let mass = f64::from_bits(mass);
         let known = flow.world.free.inserted().identities;
@@ -248,7 +273,7 @@ fn positions<const D: usize>(
     checkpoint: &Checkpoint,
     path: &Path,
     name: &str,
-) -> Result<Vec<Vect<D>>, RunError> {
+) -> Result<Vec<Vect<D>>> {
     match checkpoint.column(name).map(|c| &c.data) {
         Some(ColumnData::F64(v)) if !v.iter().all(|x| x.is_finite()) => {
             Err(refused(path, "it has particles that are nowhere"))
@@ -259,7 +284,7 @@ fn positions<const D: usize>(
 }
 
 /// Refuses a clock that no run of the scene can have had.
-fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<(), RunError> {
+fn believable(clock: &Clock, scene: &Scene, path: &Path) -> Result<()> {
     let [time, dt] = [clock.time, clock.dt].map(f64::from_bits);
     let end = scene.run.end;
     let builds = clock.list_time.map_or(time, f64::from_bits);
@@ -291,7 +316,7 @@ fn set_clock<const D: usize>(
     checkpoint: &Checkpoint,
     same_lists: bool,
     path: &Path,
-) -> Result<(), RunError> {
+) -> Result<()> {
     flow.world.time = f64::from_bits(clock.time);
     flow.world.dt = f64::from_bits(clock.dt);
     if let Some(walls) = &mut flow.walls {
@@ -317,7 +342,7 @@ fn set_clock<const D: usize>(
 
 /// Errors of a state that is none of this scene, though the file is whole: numbers of particles and phases
 /// that there are none of, places that are none.
-fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>, RunError> {
+fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>> {
     let free = &flow.world.free;
     let mut seen = HashSet::new();
     let given = free.inserted().identities;

@@ -20,20 +20,15 @@ pub(crate) struct Counters {
     pub(crate) next_output: Option<u64>,
     pub(crate) rows: u64,
     /// Time of the last row, as bits: a run that is over has its last row.
-    #[serde(default)]
     pub(crate) last_row: Option<u64>,
     pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
     /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
-    #[serde(default)]
     pub(crate) series_peaks: Option<Vec<u64>>,
     /// State of the watch on energy.
-    #[serde(default)]
     pub(crate) energies: Option<[u64; 5]>,
-    #[serde(default)]
     pub(crate) first_trouble: Option<Trouble>,
     /// Time at which a run began that started from another's state.
-    #[serde(default)]
     pub(crate) started_at: Option<u64>,
     pub(crate) checkpoints: u64,
     pub(crate) limited: BTreeMap<String, u64>,
@@ -70,7 +65,7 @@ const ROUNDING: f64 = 1e-9;
 
 impl Counters {
     /// Counts of the driver, at a time (s).
-    pub(crate) fn books(&self, time: f64) -> RunCounters {
+    pub fn books(&self, time: f64) -> RunCounters {
         RunCounters {
             time,
             rows: self.rows,
@@ -86,7 +81,7 @@ impl Counters {
     }
 
     /// Takes over the counts of the driver.
-    pub(crate) fn take(&mut self, books: &RunCounters) {
+    pub fn take(&mut self, books: &RunCounters) {
         self.rows = books.rows;
         self.last_row = books.last_row.map(f64::to_bits);
         self.series_position = books.series;
@@ -98,7 +93,7 @@ impl Counters {
     }
 
     /// Those of a run that begins.
-    pub(crate) fn begin() -> Self {
+    pub fn begin() -> Self {
         Counters {
             step_scale: 1f64.to_bits(),
             ..Counters::default()
@@ -109,23 +104,21 @@ impl Counters {
     ///
     /// A checkpoint with right checksums may be of any origin. Counts that decide the next work must fit the time;
     /// others need only be such that counting on is possible.
-    pub(crate) fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
+    pub fn nonsense(&self, scene: &Scene, time: f64) -> Option<String> {
         let scale = f64::from_bits(self.step_scale);
         if !(scale > 0.0 && scale <= 1.0) {
             return Some(format!("its `step_scale` is {scale}, not between 0 and 1"));
         }
         self.counts().or_else(|| self.numbers(time)).or_else(|| {
-            let every = scene.output.series_interval(scene.run.end);
-            let rows = (time / every * (1.0 + ROUNDING)).floor() as u64 + 1;
-            let saved = (time / scene.run.checkpoint_interval() * (1.0 + ROUNDING)).floor() as u64;
-            let told = |n, of: &str, most| format!("it counts {n} {of} by then, more than {most}");
-            if self.rows > rows {
-                Some(told(self.rows, "rows of the series", rows))
-            } else if self.checkpoints > saved {
-                Some(told(self.checkpoints, "checkpoints", saved))
-            } else {
-                None
-            }
+            let most = |every: f64| (time / every * (1.0 + ROUNDING)).floor() as u64;
+            let rows = most(scene.output.series_interval(scene.run.end)) + 1;
+            let saved = most(scene.run.checkpoint_interval());
+            let told = [
+                (self.rows, "rows of the series", rows),
+                (self.checkpoints, "checkpoints", saved),
+            ];
+            let (n, of, most) = told.into_iter().find(|(n, _, most)| n > most)?;
+            Some(format!("it counts {n} {of} by then, more than {most}"))
         })
     }
 
@@ -175,7 +168,7 @@ impl Counters {
     }
 
     /// Counts in intervals of the scene, for a scene whose intervals may be others than before.
-    pub(crate) fn recount(&mut self, scene: &Scene, time: f64) {
+    pub fn recount(&mut self, scene: &Scene, time: f64) {
         if let Some(last) = self.last_row.map(f64::from_bits) {
             self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
         }

@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use sph_core::StepError;
+use sph_neighbours::decomposition::PartError;
 use sph_run::{Frames, Model, Poll, Progress, RunCounters, Start, Status, Watch};
 
-use crate::running::beginning::begin;
+use crate::failure::error::Result;
+use crate::running::checkpoint::begin;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
-use crate::running::ranked;
+use crate::running::ranked::{columns_of_all, looks_around};
 use crate::running::series;
-use crate::running::watches::EnergyWatch;
 use crate::setup::measure_walls;
 use crate::{RunError, Summary};
 
@@ -23,21 +24,19 @@ impl<const D: usize> Model for Running<'_, D> {
         start: &Start,
         own: &Path,
         observer: &mut Watch<'_>,
-    ) -> Result<RunCounters, RunError> {
-        let (scene, identity) = (self.scene, &self.options.identity);
+    ) -> Result<RunCounters> {
+        let (scene, options) = (self.scene, self.options);
         let flow = &mut self.parts.flow;
-        self.counters = begin(scene, identity, start, own, flow, observer)?;
-        match start {
-            Start::Afresh | Start::From(_) => {}
-            Start::Resumed => self.zones.load(own, Some(identity))?,
-            Start::Changed => self.zones.load(own, None)?,
+        self.counters = begin(scene, options, flow, observer)?;
+        if start.goes_on() {
+            let identity = (*start == Start::Resumed).then_some(&options.identity);
+            self.zones.load(own, identity)?;
         }
         if let Some(ranks) = self.ranks.clone().filter(|_| flow.parts.is_none()) {
             flow.divide(ranks).map_err(StepError::from)?;
         }
         if self.writes() && self.parts.flow.parts.is_some() {
-            let begins = (identity, start, own);
-            let whole = ranked::columns_of_all(scene, begins, &mut self.parts, &self.counters)?;
+            let whole = columns_of_all(scene, options, &mut self.parts, &self.counters)?;
             self.whole = Some(whole);
         }
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
@@ -46,13 +45,21 @@ impl<const D: usize> Model for Running<'_, D> {
                 probe.recall(&gathered);
             }
         }
-        self.energy = EnergyWatch::from_scene(scene, &self.parts.flow, self.counters.energies);
-        self.recall_extrema(start.goes_on());
+        self.energy.recall(self.counters.energies);
+        if start.goes_on() {
+            let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
+            self.extrema.density_range = [low, high];
+            (self.extrema.energy_scale, self.extrema.momentum_scale) = (energy, momentum);
+        }
+        let kept = self.counters.series_peaks.iter().flatten();
+        for (peak, bits) in self.extrema.peaks.iter_mut().zip(kept) {
+            *peak = f64::from_bits(*bits);
+        }
         Ok(self.counters.books(self.parts.flow.world.time))
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
-    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Progress, RunError> {
+    fn advance(&mut self, limit: f64, observer: &mut Watch<'_>) -> Result<Progress> {
         self.judge()?;
         let ready = |running: &Self| limit <= running.parts.flow.world.time;
         let mut done = ready(self);
@@ -64,7 +71,7 @@ impl<const D: usize> Model for Running<'_, D> {
                     continue;
                 }
                 self.known.evaluated = true;
-                if self.good.taken && f64::from_bits(self.counters.step_scale) >= 1.0 {
+                if self.good.is_some() && f64::from_bits(self.counters.step_scale) >= 1.0 {
                     self.counters.retries = 0;
                 }
             }
@@ -84,9 +91,9 @@ impl<const D: usize> Model for Running<'_, D> {
         series::columns(shown.flow.outlets.labels(), &shown.probes)
     }
 
-    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+    fn row(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         self.known.written = true;
-        self.gather(self.looks_around())?;
+        self.gather(looks_around(&self.parts.probes))?;
         // On several ranks all measure together.
         measure_walls(&mut self.parts.flow, &self.parts.probes)?;
         self.zones.measure_walls()?;
@@ -100,13 +107,9 @@ impl<const D: usize> Model for Running<'_, D> {
         }
     }
 
-    fn show(
-        &mut self,
-        frames: Option<&mut Frames>,
-        observer: &mut Watch<'_>,
-    ) -> Result<(), RunError> {
+    fn show(&mut self, frames: Option<&mut Frames>, observer: &mut Watch<'_>) -> Result<()> {
         self.known.written = true;
-        self.gather(self.looks_around() || shows_depths(self.scene))?;
+        self.gather(looks_around(&self.parts.probes) || shows_depths(self.scene))?;
         if self.scene.output.vtk {
             self.gather_walls()?;
         }
@@ -117,15 +120,23 @@ impl<const D: usize> Model for Running<'_, D> {
         Ok(())
     }
 
-    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<(), RunError> {
+    fn save(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
         self.known.written = true;
         self.gather(false)?;
         self.save_gathered(books, own)
     }
 
-    fn agree(&mut self, wish: Poll<RunError>) -> Result<bool, RunError> {
+    fn agree(&mut self, wish: Poll<RunError>) -> Result<bool> {
         match wish {
-            Poll::Written(written) => self.all_have_written(written).map(|()| false),
+            // The run ends on all ranks if one could not write.
+            Poll::Written(written) => match &mut self.parts.flow.parts {
+                None => written.map(|()| false),
+                Some(parts) => match parts.link.confirm(written.is_err()) {
+                    Err(PartError::Elsewhere) if written.is_err() => written.map(|()| false),
+                    Err(other) => Err(StepError::from(other).into()),
+                    Ok(()) => Ok(false),
+                },
+            },
             Poll::Stop(stop) => {
                 let any = self.parts.flow.any_rank(stop);
                 any.map_err(|cause| self.failed(cause))
@@ -138,12 +149,12 @@ impl<const D: usize> Model for Running<'_, D> {
         ended: Result<Status, &mut RunError>,
         books: &RunCounters,
         _: &mut Watch<'_>,
-    ) -> Result<Option<Summary>, RunError> {
+    ) -> Result<Option<Summary>> {
         match ended {
             Err(RunError::Failed(failure)) => self.find_out(failure, books),
             Err(_) => Ok(None),
             Ok(status) => {
-                self.gather(self.looks_around())?;
+                self.gather(looks_around(&self.parts.probes))?;
                 self.look_around()?;
                 self.share()?;
                 match self.writes() {
@@ -170,7 +181,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Ends a run whose state, as it was when something of it was written, is none of a flow that the scene means.
-    fn judge(&mut self) -> Result<(), RunError> {
+    fn judge(&mut self) -> Result<()> {
         if !self.known.evaluated {
             return Ok(());
         }

@@ -26,7 +26,7 @@ pub fn next_step(
 }
 
 /// The error of a run whose steps have become too short to move its clock.
-pub(crate) fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
+pub fn standing_still(time: f64, dt: f64, target: f64, limiter: &str) -> Option<StepError> {
     // The rest of the way to an output may be as short: it is made up for after the step.
     let moves = time + dt > time || time + dt >= target * (1.0 - 1e-12);
     let reason = || {

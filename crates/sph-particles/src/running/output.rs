@@ -1,39 +1,33 @@
 //! Fields for ParaView, pictures and the curves of probes.
 
-use std::path::Path;
-
 use sph_core::fields;
 use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
-use sph_neighbours::World;
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
-use sph_scene::{PictureRange, Scene, given};
+use sph_scene::{Scene, given};
 use sph_solver::Flow;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
-use crate::setup::Probes;
+use crate::setup::{Assembled, Probes};
 use crate::zones::Coupling;
 
 /// True if outputs show how far particles are from the surface, which is found from lists and contacts.
-pub(crate) fn shows_depths(scene: &Scene) -> bool {
+pub fn shows_depths(scene: &Scene) -> bool {
     let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
     shown.any(|name| name == SURFACE_DISTANCE.name)
 }
 
 /// Fields and pictures of a scene.
-pub(crate) struct Outputs {
-    fields: Vec<String>,
-    pictures: Vec<String>,
-    colours: Colours,
-    title: String,
-    /// Names of the phases, for pictures of them.
-    phases: Vec<String>,
+pub(crate) struct Outputs<'a, const D: usize> {
+    pub scene: &'a Scene,
+    pub shown: &'a Assembled<D>,
+    pub zones: &'a Coupling<D>,
 }
 
 /// The files of a scene's outputs.
-pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
+pub fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
     let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
     let pictures = drawn || !scene.output.picture.is_empty();
     let curves = probes.iter().any(|(_, p)| !p.curve_columns().is_empty());
@@ -46,67 +40,56 @@ pub(crate) fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outla
     }
 }
 
-impl Outputs {
-    /// Pictures of a scene whose fluid at rest has a pressure (Pa).
-    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
-        Outputs {
-            fields: scene.output.fields.clone(),
-            pictures: scene.output.picture.clone(),
-            colours: Colours::from_scene(scene, pressure),
-            title: scene.title.clone(),
-            phases: scene.phase.keys().cloned().collect(),
-        }
-    }
-
+impl<const D: usize> Outputs<'_, D> {
     /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
     /// of ranks, where these write frames together. Returns changes of the pictures.
-    pub fn write<const D: usize>(
+    pub fn write(
         &self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        probes: &Probes<D>,
         frames: &mut Frames,
         among: Option<(&Flow<D>, usize)>,
-    ) -> Result<Vec<String>, RunError> {
+    ) -> Result<Vec<String>> {
+        let flow = &self.shown.flow;
         let mut remarks = Vec::new();
         let points = points(flow)?;
         // No column: only an output reads it.
-        let depth = SURFACE_DISTANCE;
-        let asked = self.fields.iter().chain(&self.pictures);
-        let depths = match asked.into_iter().any(|name| name == depth.name) {
+        let depths = match shows_depths(self.scene) {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
-        self.write_frame((flow, zones), (&points, &depths), frames, among)?;
-        for name in &self.pictures {
-            let drawn = match name == depth.name {
+        self.write_frame(&points, &depths, frames, among)?;
+        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
+        for name in &self.scene.output.picture {
+            let drawn = match name == SURFACE_DISTANCE.name {
                 true => Some(("surface distance [m]".to_string(), depths.clone())),
                 false => column_of(flow, name),
             };
-            let Some(drawn) = drawn else { continue };
+            let Some((label, values)) = drawn else {
+                continue;
+            };
             let classes = match name == fields::PHASE.name {
-                true => &self.phases[..],
+                true => &phases[..],
                 false => &[],
             };
-            let range = match classes {
-                [] => self.colours.range(name, &drawn.1, &mut frames.colours),
+            let (range, told) = match classes {
+                [] => self.range(name, &values, &mut frames.colours),
                 _ => (None, None),
             };
-            remarks.extend(range.1);
-            let finest = finest(flow, zones, name)?;
+            remarks.extend(told);
+            let finest = self.finest(name)?;
             let (points, values, diameters) = match &finest {
                 Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
-                None => (&points[..], &drawn.1[..], &[][..]),
+                None => (&points[..], &values[..], &[][..]),
             };
             let picture = Picture {
                 diameters,
                 walls: &drawn_walls(&flow.world),
                 classes,
-                range: range.0,
-                ..self.picture(&flow.world, points, (&drawn.0, values))
+                range,
+                ..self.picture(points, &label, values)
             };
             picture.save(frames.picture(name))?;
         }
-        for (name, probe) in probes {
+        for (name, probe) in &self.shown.probes {
             let columns = probe.curve_columns();
             if columns.is_empty() {
                 continue;
@@ -117,18 +100,19 @@ impl Outputs {
             if let Some(drawn) = probe.drawn_column() {
                 let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
                 let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
-                let (range, told) = self.colours.range(name, &values, &mut frames.colours);
+                let (range, told) = self.range(name, &values, &mut frames.colours);
                 remarks.extend(told);
                 // A map over the first two columns, its cells as wide as the nearest ones are apart.
                 let places: Vec<_> = rows.iter().map(|row| [row[0], row[1], 0.0]).collect();
                 let apart = |[a, b]: [[f64; 3]; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
                 let pairs = places.windows(2).map(|pair| apart([pair[0], pair[1]]));
                 let diameter = pairs.fold(f64::INFINITY, f64::min);
-                let plain = self.picture(&flow.world, &places, (&label, &values));
+                let plain = self.picture(&places, &label, &values);
                 let picture = Picture {
-                    diameter: Some(diameter)
-                        .filter(|d| d.is_finite())
-                        .unwrap_or(plain.diameter),
+                    diameter: match diameter.is_finite() {
+                        true => diameter,
+                        false => plain.diameter,
+                    },
                     view: View::Plane,
                     range,
                     ..plain
@@ -140,14 +124,15 @@ impl Outputs {
     }
 
     /// A picture of values at points, particles of the spacing.
-    fn picture<'a, const D: usize>(
-        &'a self,
-        world: &World<D>,
-        points: &'a [[f64; 3]],
-        (label, values): (&'a str, &'a [f64]),
-    ) -> Picture<'a> {
+    fn picture<'p>(
+        &'p self,
+        points: &'p [[f64; 3]],
+        label: &'p str,
+        values: &'p [f64],
+    ) -> Picture<'p> {
+        let world = &self.shown.flow.world;
         Picture {
-            title: &self.title,
+            title: &self.scene.title,
             time: Some(world.time),
             label,
             diameter: world.spacing,
@@ -157,100 +142,19 @@ impl Outputs {
         }
     }
 
-    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
-    fn write_frame<const D: usize>(
-        &self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        (points, depths): (&[[f64; 3]], &[f64]),
-        frames: &mut Frames,
-        among: Option<(&Flow<D>, usize)>,
-    ) -> Result<(), RunError> {
-        if !frames.lists() {
-            return Ok(());
-        }
-        let wanted = |name: &str| self.fields.iter().any(|f| f == name);
-        let mut fluid = match among {
-            Some((part, _)) => own_particles(part, wanted)?,
-            None => particles(&flow.world.free, points, wanted),
-        };
-        let depth = SURFACE_DISTANCE;
-        if wanted(depth.name) {
-            let field = FieldData::scalar(depth.name, depth.unit, depths);
-            fluid.fields.push(field);
-        }
-        let mut pieces = vec![fluid];
-        for level in zones.all_levels() {
-            pieces.push(zone_particles(level, wanted)?);
-        }
-        pieces.extend(walls(&flow.world));
-        let ranks = among.map_or(1, |(_, ranks)| ranks);
-        Ok(frames.add(flow.world.time, pieces, ranks)?)
-    }
-}
-
-/// A frame of all columns, for the state in which a run failed.
-pub fn write_everything<const D: usize>(flow: &Flow<D>, path: &Path) -> Result<(), RunError> {
-    let points = points(flow)?;
-    let piece = particles(&flow.world.free, &points, |_| true);
-    sph_io::write_vtu(path, &piece, flow.world.time)?;
-    Ok(())
-}
-
-/// Places, values and diameters of particles in a picture.
-type Spots = (Vec<[f64; 3]>, Vec<f64>, Vec<f64>);
-
-/// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
-fn finest<const D: usize>(
-    flow: &Flow<D>,
-    zones: &Coupling<D>,
-    name: &str,
-) -> Result<Option<Spots>, RunError> {
-    if zones.levels.is_empty() {
-        return Ok(None);
-    }
-    let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
-    for (flow, some) in zones.finest(flow)? {
-        let Some((_, column)) = column_of(flow, name) else {
-            return Ok(None);
-        };
-        let all = points(flow)?;
-        places.extend(some.iter().map(|k| all[*k]));
-        values.extend(some.iter().map(|k| column[*k]));
-        diameters.resize(places.len(), flow.world.spacing);
-    }
-    Ok(Some((places, values, diameters)))
-}
-
-/// Ranges that a scene gives, and that follow from it.
-pub(crate) struct Colours {
-    given: Option<PictureRange>,
-    /// Pressure of the fluid at rest, Pa; 0 where there is none.
-    pressure: f64,
-    /// The largest `velocity_scale`, m/s; 0 where none is given.
-    speed: f64,
-}
-
-impl Colours {
-    pub fn from_scene(scene: &Scene, pressure: f64) -> Self {
-        let scales = scene.phase.values().filter_map(|p| p.velocity_scale);
-        Colours {
-            given: scene.output.picture_range.clone(),
-            pressure,
-            speed: scales.fold(0.0, f64::max),
-        }
-    }
-
     /// The range for the next picture of a field, and a remark if it is wider than pictures have `seen`.
-    pub fn range(
+    fn range(
         &self,
         field: &str,
         values: &[f64],
         seen: &mut ColourRanges,
     ) -> (Option<[f64; 2]>, Option<String>) {
-        let given = self.given.as_ref().and_then(|all| all.ends(field));
+        let given = self.scene.output.picture_range.as_ref();
+        let given = given.and_then(|all| all.ends(field));
+        let speeds = self.scene.phase.values().filter_map(|p| p.velocity_scale);
         let scale = match field {
-            _ if field == fields::PRESSURE.name => self.pressure,
-            _ if field == fields::VELOCITY.name => self.speed,
+            _ if field == fields::PRESSURE.name => self.shown.pressure,
+            _ if field == fields::VELOCITY.name => speeds.fold(0.0, f64::max),
             _ => 0.0,
         };
         let scaled = (scale > 0.0).then_some([0.0, scale]);
@@ -266,4 +170,56 @@ impl Colours {
         });
         (Some(range), told)
     }
+
+    /// Adds a frame for ParaView; `depths` are distances to the surface, if these are requested.
+    fn write_frame(
+        &self,
+        points: &[[f64; 3]],
+        depths: &[f64],
+        frames: &mut Frames,
+        among: Option<(&Flow<D>, usize)>,
+    ) -> Result<()> {
+        let flow = &self.shown.flow;
+        if !frames.lists() {
+            return Ok(());
+        }
+        let wanted = |name: &str| self.scene.output.fields.iter().any(|f| f == name);
+        let mut fluid = match among {
+            Some((part, _)) => own_particles(part, wanted)?,
+            None => particles(&flow.world.free, points, wanted),
+        };
+        let depth = SURFACE_DISTANCE;
+        if wanted(depth.name) {
+            let field = FieldData::scalar(depth.name, depth.unit, depths);
+            fluid.fields.push(field);
+        }
+        let mut pieces = vec![fluid];
+        for level in self.zones.all_levels() {
+            pieces.push(zone_particles(level, wanted)?);
+        }
+        pieces.extend(walls(&flow.world));
+        let ranks = among.map_or(1, |(_, ranks)| ranks);
+        Ok(frames.add(flow.world.time, pieces, ranks)?)
+    }
+
+    /// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
+    fn finest(&self, name: &str) -> Result<Option<Spots>> {
+        if self.zones.levels.is_empty() {
+            return Ok(None);
+        }
+        let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
+        for (flow, some) in self.zones.finest(&self.shown.flow)? {
+            let Some((_, column)) = column_of(flow, name) else {
+                return Ok(None);
+            };
+            let all = points(flow)?;
+            places.extend(some.iter().map(|k| all[*k]));
+            values.extend(some.iter().map(|k| column[*k]));
+            diameters.resize(places.len(), flow.world.spacing);
+        }
+        Ok(Some((places, values, diameters)))
+    }
 }
+
+/// Places, values and diameters of particles in a picture.
+type Spots = (Vec<[f64; 3]>, Vec<f64>, Vec<f64>);

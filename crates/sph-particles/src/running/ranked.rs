@@ -1,25 +1,24 @@
 //! A run on several ranks: the first gathers all results, and writes them.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use sph_boundary::Wall;
 use sph_core::{StepError, System};
 use sph_neighbours::decomposition::{PartError, Transport};
 use sph_neighbours::{Nearby, WallSet};
-use sph_run::{Identity, RunOptions, Start};
+use sph_run::{RunOptions, Start};
 use sph_scene::Scene;
 
-use crate::failure::error::RunError;
+use crate::failure::error::{Result, RunError};
 use crate::results::summary::RankShare;
-use crate::running::beginning::begin;
+use crate::running::checkpoint::begin;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
 use crate::running::output::shows_depths;
-use crate::setup::{Assembled, Memory, Share, assemble_share};
+use crate::setup::{Assembled, Memory, Probes, Share, assembled};
 
 /// The part that a process assembles: on ranks only where particles settle first does each hold the whole for a while.
-pub(crate) fn share<const D: usize>(
+pub fn share<const D: usize>(
     scene: &Scene,
     options: &RunOptions,
     ranks: Option<&Arc<dyn Transport>>,
@@ -34,15 +33,15 @@ pub(crate) fn share<const D: usize>(
 
 /// Columns for the whole at the first of several ranks, which has a part: among the walls of this, without lists and contacts,
 /// but where neighbours are searched in it.
-pub(crate) fn columns_of_all<const D: usize>(
+pub fn columns_of_all<const D: usize>(
     scene: &Scene,
-    (identity, start, own): (&Identity, &Start, &Path),
+    options: &RunOptions,
     parts: &mut Assembled<D>,
     counters: &Counters,
-) -> Result<Assembled<D>, RunError> {
-    if looks_around(scene, parts) {
-        let mut all = assemble_share::<D>(scene, Share::Blank)?;
-        begin(scene, identity, start, own, &mut all.flow, &mut ())?;
+) -> Result<Assembled<D>> {
+    if shows_depths(scene) || looks_around(&parts.probes) {
+        let mut all = assembled::<D>(scene, Share::Blank)?;
+        begin(scene, options, &mut all.flow, &mut ())?;
         return Ok(all);
     }
     let standing = parts.flow.walls.take().map(|walls| {
@@ -57,33 +56,33 @@ pub(crate) fn columns_of_all<const D: usize>(
         };
         Box::new((walls, set))
     });
-    let mut all = assemble_share::<D>(scene, Share::Columns(standing))?;
+    let mut all = assembled::<D>(scene, Share::Columns(standing))?;
     parts.flow.walls = all.flow.walls.take();
     all.flow.laws = parts.flow.laws.clone();
     all.flow.recount(&counters.left);
     Ok(all)
 }
 
-/// True if a probe or an output needs lists and contacts.
-fn looks_around<const D: usize>(scene: &Scene, all: &Assembled<D>) -> bool {
-    shows_depths(scene) || all.probes.iter().any(|(_, p)| p.needs_around())
+/// True if a probe needs lists and contacts.
+pub fn looks_around<const D: usize>(probes: &Probes<D>) -> bool {
+    probes.iter().any(|(_, p)| p.needs_around())
 }
 
 impl<const D: usize> Running<'_, D> {
     /// The particles that are shown and measured: the whole flow, where this process has it.
-    pub(crate) fn shown(&self) -> &Assembled<D> {
+    pub fn shown(&self) -> &Assembled<D> {
         self.whole.as_ref().unwrap_or(&self.parts)
     }
 
     /// The walls of outputs: its own, or those of this process's part.
-    pub(crate) fn walls(&self) -> Option<&dyn Wall<D>> {
+    pub fn walls(&self) -> Option<&dyn Wall<D>> {
         let own = self.shown().flow.walls.as_deref();
         own.or(self.parts.flow.walls.as_deref())
     }
 
     /// Brings the whole flow to the state of all ranks; with all that is derived from it, if it is to be `evaluated`. Every rank
     /// must call it. Nothing where one process runs all.
-    pub(crate) fn gather(&mut self, evaluated: bool) -> Result<(), RunError> {
+    pub fn gather(&mut self, evaluated: bool) -> Result<()> {
         if self.known.gathered.is_some_and(|done| done || !evaluated) {
             return Ok(());
         }
@@ -127,13 +126,8 @@ impl<const D: usize> Running<'_, D> {
         Ok(())
     }
 
-    /// True if a probe needs lists and contacts.
-    pub(crate) fn looks_around(&self) -> bool {
-        self.parts.probes.iter().any(|(_, p)| p.needs_around())
-    }
-
     /// Counts the neighbours of the particles of this process.
-    pub(crate) fn look_around(&mut self) -> Result<(), RunError> {
+    pub fn look_around(&mut self) -> Result<()> {
         let flow = &self.parts.flow;
         let free = &flow.world.free;
         if flow.world.lists.free.len() != free.len() {
@@ -145,7 +139,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Gives the walls of the whole flow the pressures that the ranks found; every rank must call it.
-    pub(crate) fn gather_walls(&mut self) -> Result<(), RunError> {
+    pub fn gather_walls(&mut self) -> Result<()> {
         let flow = &self.parts.flow;
         let Some(parts) = &flow.parts else {
             return Ok(());
@@ -156,7 +150,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Gives the first rank the results of each; every rank must call it.
-    pub(crate) fn share(&mut self) -> Result<(), RunError> {
+    pub fn share(&mut self) -> Result<()> {
         let steps = self.counters.steps.max(1) as f64;
         let flow = &self.parts.flow;
         let Some(parts) = &flow.parts else {
@@ -208,7 +202,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// A cause to end the run that any rank has, which all must call.
-    pub(crate) fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
+    pub fn agreed(&mut self, own: Option<StepError>) -> Option<StepError> {
         let Some(parts) = &mut self.parts.flow.parts else {
             return own;
         };
@@ -218,23 +212,8 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Ends the run on all ranks if one could not write.
-    pub(crate) fn all_have_written(
-        &mut self,
-        written: Result<(), RunError>,
-    ) -> Result<(), RunError> {
-        let Some(parts) = &mut self.parts.flow.parts else {
-            return written;
-        };
-        match parts.link.confirm(written.is_err()) {
-            Err(PartError::Elsewhere) if written.is_err() => written,
-            Err(other) => Err(StepError::from(other).into()),
-            Ok(()) => Ok(()),
-        }
-    }
-
     /// Informs the other ranks of a failure; returns the cause of the first rank that has one.
-    pub(crate) fn known_to_all(&mut self, cause: StepError) -> StepError {
+    pub fn known_to_all(&mut self, cause: StepError) -> StepError {
         match &mut self.parts.flow.parts {
             None => cause,
             Some(parts) => parts.link.share_failure(cause),

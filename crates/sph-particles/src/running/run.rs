@@ -6,16 +6,22 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use sph_core::StepError;
+use sph_neighbours::Nearby;
 use sph_neighbours::decomposition::{Thread, Transport};
-use sph_run::{Opened, RunOptions, Schedule, Status, Watch};
+use sph_run::{Opened, RunOptions, Schedule, Start, Status, Watch};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::running::course::Running;
+use crate::failure::error::Result;
+use crate::running::counters::Counters;
+use crate::running::course::{DerivedState, Running};
 use crate::running::next_step::{RECOVERY, next_step, standing_still};
 use crate::running::output::outlay;
-use crate::running::ready::ready;
-use crate::setup::all_ready;
+use crate::running::ranked;
+use crate::running::series::Extrema;
+use crate::running::watches::{DepartureWatch, EnergyWatch, MachWatch};
+use crate::setup::{all_ready, assembled, readable, refuse_the_indivisible, rehearse, short_steps};
+use crate::zones::attach;
 use crate::{RunError, Summary};
 
 /// Runs a scene.
@@ -23,11 +29,7 @@ use crate::{RunError, Summary};
 /// # Errors
 /// A bad scene before anything is written; afterwards a failed step (with checkpoint and
 /// picture of the bad state), or a file that cannot be written.
-pub fn run(
-    scene: &Scene,
-    options: &RunOptions,
-    observer: &mut Watch<'_>,
-) -> Result<Summary, RunError> {
+pub fn run(scene: &Scene, options: &RunOptions, observer: &mut Watch<'_>) -> Result<Summary> {
     let summary = run_with(scene, options, None, observer)?;
     summary.ok_or_else(|| RunError::at("", "there is no summary of the run"))
 }
@@ -43,7 +45,7 @@ pub fn run_part(
     options: &RunOptions,
     ranks: Arc<dyn Transport>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
+) -> Result<Option<Summary>> {
     run_with(scene, options, Some(ranks), observer)
 }
 
@@ -52,14 +54,19 @@ fn run_with(
     options: &RunOptions,
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
-    let threads = options.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    pool.install(|| match scene.dimension {
+) -> Result<Option<Summary>> {
+    on_threads(options.threads, || match scene.dimension {
         3 => run_in::<3>(scene, options, ranks, observer),
         _ => run_in::<2>(scene, options, ranks, observer),
-    })
+    })?
+}
+
+/// Results on so many threads; without a number on one for each core.
+pub fn on_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T> {
+    let builder = rayon::ThreadPoolBuilder::new();
+    let pool = builder.num_threads(threads.unwrap_or(0)).build();
+    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
+    Ok(pool.install(work))
 }
 
 fn run_in<const D: usize>(
@@ -67,7 +74,7 @@ fn run_in<const D: usize>(
     options: &RunOptions,
     ranks: Option<Arc<dyn Transport>>,
     observer: &mut Watch<'_>,
-) -> Result<Option<Summary>, RunError> {
+) -> Result<Option<Summary>> {
     let begun = ready::<D>(scene, options, ranks.clone()).and_then(|mut running| {
         let writes = running.writes();
         let outlay = writes.then(|| outlay(scene, &running.parts.probes));
@@ -101,6 +108,56 @@ fn run_in<const D: usize>(
     opened.drive(&mut running, &schedule, Instant::now(), observer)
 }
 
+/// A run that has not begun, of a scene that nothing is refused of.
+fn ready<'a, const D: usize>(
+    scene: &'a Scene,
+    options: &'a RunOptions,
+    ranks: Option<Arc<dyn Transport>>,
+) -> Result<Running<'a, D>> {
+    let share = ranked::share(scene, options, ranks.as_ref());
+    let mut parts = assembled::<D>(scene, share)?;
+    if !parts.flow.is_blank() {
+        rehearse(scene, &mut parts.flow, &parts.probes)?;
+        let mut limits = parts.flow.step_limits()?;
+        parts.flow.least_limits(&mut limits)?;
+        let remedies = parts.flow.remedies_of_bounds()?;
+        let short = short_steps(scene, &limits, &remedies)?;
+        parts.warnings.extend(short);
+    }
+    readable(scene)?;
+    let why = match (&ranks, &options.start) {
+        (Some(_), _) => Some("zones run in one process: take `--ranks` out"),
+        (_, Start::From(_)) => Some("a run with zones begins at its start: take `--from` out"),
+        _ => None,
+    };
+    if let Some((name, why)) = scene.zone.keys().next().zip(why) {
+        return Err(RunError::at(format!("zone.{name}"), why));
+    }
+    let zones = attach(scene, &parts)?;
+    if let Some(ranks) = &ranks {
+        refuse_the_indivisible(&parts.flow, ranks.ranks())?;
+    }
+    Ok(Running {
+        scene,
+        options,
+        ranks,
+        whole: None,
+        counters: Counters::begin(),
+        extrema: Extrema::NONE,
+        good: None,
+        known: DerivedState::default(),
+        tried: (0.0, "none"),
+        limits: Vec::new(),
+        mach: MachWatch::default(),
+        energy: EnergyWatch::from_scene(scene, &parts.flow),
+        departure: DepartureWatch::default(),
+        shares: Vec::new(),
+        around: Nearby::NONE,
+        parts,
+        zones,
+    })
+}
+
 /// Adds to the count of a name, which is entered at its first use.
 fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more: T) {
     match all.get_mut(name) {
@@ -111,15 +168,15 @@ fn count<T: AddAssign + Default>(all: &mut BTreeMap<String, T>, name: &str, more
 
 impl<const D: usize> Running<'_, D> {
     /// One step from an evaluated state, which is kept, not beyond `target` (s); its failure, if there is one.
-    pub(crate) fn step(&mut self, target: f64) -> Result<Result<(), StepError>, RunError> {
+    pub fn step(&mut self, target: f64) -> Result<Result<(), StepError>> {
         let time = self.parts.flow.world.time;
         let (dt, limiter) = match self.chosen_step(time, target)? {
             Ok(chosen) => chosen,
             Err(cause) => return Ok(Err(cause)),
         };
         if self.scene.run.retries > 0 {
-            self.good.snapshot.take(&self.parts.flow)?;
-            self.good.taken = true;
+            let good = self.good.get_or_insert_default();
+            good.take(&self.parts.flow)?;
         }
         if let Some(cause) = standing_still(time, dt, target, limiter) {
             return Err(self.failed(cause));
@@ -135,7 +192,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(Ok(()))
     }
 
-    pub(crate) fn evaluate(&mut self) -> Result<(), StepError> {
+    pub fn evaluate(&mut self) -> Result<(), StepError> {
         let flow = &mut self.parts.flow;
         let bounds = self.scene.numerics.density_bounds;
         let done = self.zones.evaluate(flow);
@@ -146,10 +203,7 @@ impl<const D: usize> Running<'_, D> {
             *most = stage.bytes().max(*most);
         }
         // No rank goes on to what is done with an evaluated state if another has none.
-        match self.agreed(done.err()) {
-            None => Ok(()),
-            Some(cause) => Err(cause),
-        }
+        self.agreed(done.err()).map_or(Ok(()), Err)
     }
 
     /// The next step and its limit, noted with all bounds.
@@ -157,7 +211,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         time: f64,
         target: f64,
-    ) -> Result<Result<(f64, &'static str), StepError>, RunError> {
+    ) -> Result<Result<(f64, &'static str), StepError>> {
         let mut limits = std::mem::take(&mut self.limits);
         let flow = &mut self.parts.flow;
         flow.step_limits_into(&mut limits)?;
@@ -184,7 +238,7 @@ pub fn run_on_threads(
     options: &RunOptions,
     ranks: usize,
     observer: &mut Watch<'_>,
-) -> Result<Summary, RunError> {
+) -> Result<Summary> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = options.threads.or(Some((cores / ranks).max(1)));
     let options = &options.clone().threads(threads);

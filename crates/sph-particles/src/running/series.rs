@@ -1,10 +1,8 @@
 //! Rows of `series.csv`: balances and probes, and their extremes.
 
-use sph_solver::Flow;
-
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::results::balance::Balance;
-use crate::setup::Probes;
+use crate::setup::{Assembled, Probes};
 use crate::zones::Coupling;
 
 /// Extremes of the rows so far.
@@ -31,14 +29,7 @@ pub fn columns<const D: usize>(left: &[String], probes: &Probes<D>) -> Vec<(Stri
     for axis in &["x", "y", "z"][..D] {
         add(format!("momentum.{axis}"), "kg m/s");
     }
-    for (name, unit) in [
-        ("kinetic_energy", "J"),
-        ("potential_energy", "J"),
-        ("internal_energy", "J"),
-        ("largest_speed", "m/s"),
-        ("least_density_ratio", "1"),
-        ("largest_density_ratio", "1"),
-    ] {
+    for (name, unit, _) in Balance::<D>::zero().columns() {
         add(name.into(), unit);
     }
     for label in left {
@@ -71,31 +62,24 @@ impl Extrema {
     /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
     pub fn row<const D: usize>(
         &mut self,
-        (flow, zones): (&Flow<D>, &Coupling<D>),
-        probes: &Probes<D>,
-        dt: f64,
-    ) -> Result<(Vec<f64>, Balance<D>), RunError> {
+        shown: &Assembled<D>,
+        zones: &Coupling<D>,
+    ) -> Result<(Vec<f64>, Balance<D>)> {
+        let flow = &shown.flow;
         let balance = Balance::from_flow(flow)?;
-        let mut row = vec![flow.world.time, dt];
+        let mut row = vec![flow.world.time, flow.world.dt];
         row.extend(balance.momentum.iter());
-        row.extend([
-            balance.kinetic,
-            balance.potential,
-            balance.internal,
-            balance.fastest,
-            balance.least_density,
-            balance.largest_density,
-        ]);
+        row.extend(balance.columns().map(|(.., value)| value));
         for (_, left) in flow.left().take(flow.outlets.labels().len()) {
             row.extend([left.mass, left.particles as f64]);
         }
-        for (name, probe) in probes {
+        for (name, probe) in &shown.probes {
             let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
             probe.gather(world)?;
             row.extend(probe.measure(world)?);
         }
-        self.density_range[0] = self.density_range[0].min(balance.least_density);
-        self.density_range[1] = self.density_range[1].max(balance.largest_density);
+        let ([least, largest], [low, high]) = (self.density_range, balance.density_range);
+        self.density_range = [least.min(low), largest.max(high)];
         let parts = [balance.kinetic, balance.potential, balance.internal];
         let energy = balance.energy().abs();
         let largest = parts.iter().fold(energy, |m, e| m.max(e.abs()));

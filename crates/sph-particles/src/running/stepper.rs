@@ -6,9 +6,9 @@ use sph_core::{FieldError, Role, StepError, fields};
 use sph_scene::Scene;
 use sph_solver::step::guard;
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::checkpoint;
-use crate::setup::{Assembled, assemble, rehearse};
+use crate::setup::{assemble, rehearse};
 use crate::zones::{Stepper, attach};
 
 impl<const D: usize> Stepper<D> {
@@ -16,17 +16,9 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// Every problem of the scene, with its path.
-    pub fn new(scene: &Scene) -> Result<Self, RunError> {
+    pub fn new(scene: &Scene) -> Result<Self> {
         let mut parts = assemble::<D>(scene)?;
         rehearse(scene, &mut parts.flow, &parts.probes)?;
-        Self::over(scene, parts)
-    }
-
-    /// Steps a scene that is assembled already.
-    ///
-    /// # Errors
-    /// Every problem of its zones, with its path.
-    pub(crate) fn over(scene: &Scene, parts: Assembled<D>) -> Result<Self, RunError> {
         let zones = attach(scene, &parts)?;
         Ok(Self::from_parts(scene, parts, zones))
     }
@@ -35,7 +27,7 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// A checkpoint that cannot be read or has other particles.
-    pub fn start_from(&mut self, checkpoint: &Path) -> Result<(), RunError> {
+    pub fn start_from(&mut self, checkpoint: &Path) -> Result<()> {
         self.changed();
         checkpoint::start_from(&mut self.parts.flow, &self.scene, checkpoint)
     }
@@ -44,7 +36,7 @@ impl<const D: usize> Stepper<D> {
     ///
     /// # Errors
     /// If a column is missing, or the state is bad.
-    pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>, RunError> {
+    pub fn measure(&mut self) -> Result<Vec<(String, &'static str, f64)>> {
         self.evaluate()?;
         let parts = &mut self.parts;
         rehearse(&self.scene, &mut parts.flow, &parts.probes)?;

@@ -6,7 +6,8 @@ use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::{Snapshot, SolverError};
 
-use crate::failure::error::RunError;
+use crate::failure::error::{Result, RunError};
+use crate::running::run::on_threads;
 use crate::setup::{Examination, examine_in};
 use crate::zones::{Coupling, Stepper, attach};
 
@@ -38,27 +39,25 @@ pub fn examine_and_try(
     scene: &Scene,
     threads: usize,
     budget: Duration,
-) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|e| RunError::at("--threads", e.to_string()))?;
-    pool.install(|| match scene.dimension {
+) -> Result<(Examination, Result<Option<Trial>, RunError>)> {
+    on_threads(Some(threads), || match scene.dimension {
         3 => examined_and_tried::<3>(scene, budget),
         _ => examined_and_tried::<2>(scene, budget),
-    })
+    })?
 }
 
 fn examined_and_tried<const D: usize>(
     scene: &Scene,
     budget: Duration,
-) -> Result<(Examination, Result<Option<Trial>, RunError>), RunError> {
+) -> Result<(Examination, Result<Option<Trial>, RunError>)> {
     let (mut examined, assembled) = examine_in::<D>(scene)?;
+    let zones = attach(scene, &assembled)?;
+    examined.zones = zones.sizes();
     if scene.zone.is_empty() {
-        let mut stepper = Stepper::over(scene, assembled)?;
+        let mut stepper = Stepper::from_parts(scene, assembled, zones);
         let tried = timed(scene, &mut stepper, budget);
         return Ok((examined, tried.map_err(Into::into)));
     }
-    let zones = attach(scene, &assembled)?;
-    examined.zones = zones.sizes();
     let mut start = Snapshot::default();
     start.take(&assembled.flow).map_err(SolverError::from)?;
     let none = Coupling::new(assembled.diffused, None, Vec::new());

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeSet;
 
-use sph_core::{StepError, Vect};
+use sph_core::StepError;
 use sph_scene::Scene;
 use sph_solver::step::WALL_MOTION;
 use sph_solver::{Flow, defaults};
@@ -48,12 +48,7 @@ pub(crate) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// Of a scene; `so_far` is from the earlier part of a resumed run.
-    pub fn from_scene<const D: usize>(
-        scene: &Scene,
-        flow: &Flow<D>,
-        so_far: Option<[u64; 5]>,
-    ) -> Self {
+    pub fn from_scene<const D: usize>(scene: &Scene, flow: &Flow<D>) -> Self {
         let world = &flow.world;
         let around = |k: usize| world.domain.periodic[k] && world.gravity[k] != 0.0;
         let kinds = flow.kinds.iter().map(|(_, kind)| kind);
@@ -68,10 +63,15 @@ impl EnergyWatch {
             || kinds.any(|kind| !OWN.contains(&kind));
         EnergyWatch {
             driven,
-            so_far: so_far.map(|all| all.map(f64::from_bits)),
+            so_far: None,
             share: 0.0,
             warned: false,
         }
+    }
+
+    /// Goes on with the state of the earlier part of a run.
+    pub fn recall(&mut self, so_far: Option<[u64; 5]>) {
+        self.so_far = so_far.map(|all| all.map(f64::from_bits));
     }
 
     /// State for a run that is resumed.
@@ -191,12 +191,11 @@ impl DepartureWatch {
             let points = &world.walls.points;
             let points = points.position.iter().zip(&points.wall);
             let own = points.filter(|(_, w)| world.walls.names[**w as usize] == *name);
-            let outside = |x: &Vect<D>| !world.domain.contains(x);
-            let mut own = own.map(|(x, _)| outside(x)).peekable();
-            if own.peek().is_none() {
+            let outside: Vec<bool> = own.map(|(x, _)| !world.domain.contains(x)).collect();
+            if outside.is_empty() {
                 continue;
             }
-            let (some, all) = own.fold((false, true), |(some, all), x| (some || x, all && x));
+            let [some, all] = [outside.contains(&true), !outside.contains(&false)];
             if all && !wall.mover.is_empty() && self.gone.is_none() {
                 self.gone = Some((name.clone(), world.time));
             }

@@ -5,27 +5,17 @@ use std::path::Path;
 
 use sph_run::{Frames, RunCounters, Watch};
 
-use crate::failure::error::RunError;
+use crate::failure::error::Result;
 use crate::running::checkpoint;
 use crate::running::counters::Counters;
 use crate::running::course::Running;
-use crate::running::output::shows_depths;
+use crate::running::output::{Outputs, shows_depths};
 use crate::running::pieces::write_own_share;
-use crate::setup::Probes;
-
-/// Sums of probes, by their names.
-fn gathered<const D: usize>(probes: &Probes<D>) -> BTreeMap<String, Vec<u64>> {
-    let all = probes.iter().map(|(name, p)| (name.clone(), p.gathered()));
-    all.filter(|(_, gathered)| !gathered.is_empty()).collect()
-}
 
 impl<const D: usize> Running<'_, D> {
     /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
     /// alone has found. Returns changes of the pictures.
-    pub(crate) fn write_output(
-        &mut self,
-        frames: Option<&mut Frames>,
-    ) -> Result<Vec<String>, RunError> {
+    pub fn write_output(&mut self, frames: Option<&mut Frames>) -> Result<Vec<String>> {
         let parts = self.parts.flow.parts.as_ref();
         let communicator = parts.map(|p| (p.link.transport.rank(), p.link.transport.ranks()));
         let together = self.scene.output.vtk && !shows_depths(self.scene);
@@ -34,8 +24,12 @@ impl<const D: usize> Running<'_, D> {
         match (frames, among) {
             (Some(frames), among) => {
                 let among = among.map(|(_, ranks)| (&self.parts.flow, ranks));
-                let outputs = &self.outputs;
-                outputs.write((&shown.flow, &self.zones), &shown.probes, frames, among)
+                let outputs = Outputs {
+                    scene: self.scene,
+                    shown,
+                    zones: &self.zones,
+                };
+                outputs.write(frames, among)
             }
             (None, Some((rank, _))) => {
                 let place = (self.counters.outputs, rank);
@@ -47,12 +41,9 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// The row of the whole flow.
-    pub(crate) fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>, RunError> {
+    pub fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
-        let dt = shown.flow.world.dt;
-        let (row, balance) = self
-            .extrema
-            .row((&shown.flow, &self.zones), &shown.probes, dt)?;
+        let (row, balance) = self.extrema.row(shown, &self.zones)?;
         let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
         let told = self.mach.look(&balance).into_iter();
         let told = told
@@ -67,21 +58,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(row)
     }
 
-    /// Takes up the extremes in rows of earlier parts of the run.
-    pub(crate) fn recall_extrema(&mut self, goes_on: bool) {
-        let extrema = &mut self.extrema;
-        if goes_on {
-            let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
-            extrema.density_range = [low, high];
-            (extrema.energy_scale, extrema.momentum_scale) = (energy, momentum);
-        }
-        let kept = self.counters.series_peaks.iter().flatten();
-        for (peak, bits) in extrema.peaks.iter_mut().zip(kept) {
-            *peak = f64::from_bits(*bits);
-        }
-    }
-
-    pub(crate) fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
+    pub fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
         for timing in self.parts.flow.timings() {
             *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
@@ -91,11 +68,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Writes a checkpoint of the state that the first rank has.
-    pub(crate) fn save_gathered(
-        &mut self,
-        books: &RunCounters,
-        own: &Path,
-    ) -> Result<(), RunError> {
+    pub fn save_gathered(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
         if !self.writes() {
             return Ok(());
         }
@@ -107,10 +80,12 @@ impl<const D: usize> Running<'_, D> {
         let left = self.parts.flow.left();
         counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let shown = self.shown();
+        let sums = shown.probes.iter();
+        let sums = sums.map(|(name, p)| (name.clone(), p.gathered()));
         let counters = Counters {
             stage_seconds: self.stage_seconds(books),
             works: self.parts.flow.counts(),
-            probes: gathered(&shown.probes),
+            probes: sums.filter(|(_, sums)| !sums.is_empty()).collect(),
             ..self.counters.clone()
         };
         let identity = &self.options.identity;

@@ -18,7 +18,7 @@ use sph_solver::step::{
 };
 use sph_solver::{Flow, SolverError};
 
-use crate::setup::domain::{extent, height, pressure_at_rest};
+use crate::setup::domain::{height, pressure_at_rest};
 use crate::setup::estimate::refuse_the_absurd;
 use crate::setup::initial_world::InitialWorld;
 use crate::setup::leaks::Leak;
@@ -27,11 +27,11 @@ use crate::setup::probe_setup::{self, check_output_fields};
 use crate::setup::relax::Relaxation;
 use crate::setup::shapes::Drawn;
 use crate::setup::share::Share;
-use crate::setup::soil_remarks::Ground;
 use crate::setup::sound::sound_speeds;
 use crate::setup::start::{Start, phases_of_bodies, start};
-use crate::setup::wall_speeds::speeds;
-use crate::setup::{field_error, lattices, movers, open_faces, variable_gravity};
+use crate::setup::{
+    field_error, lattices, movers, open_faces, soil_remarks, variable_gravity, wall_speeds,
+};
 
 /// Way of the fastest point of a wall within a step, over the spacing: two that meet close half a spacing.
 const WAY: f64 = 0.25;
@@ -69,7 +69,7 @@ pub struct Assembled<const D: usize> {
 ///
 /// # Errors
 /// Every problem of the scene, with its path, and nothing is written; a flow that cannot be divided; another rank that failed.
-pub(crate) fn assembled<const D: usize>(
+pub fn assembled<const D: usize>(
     scene: &Scene,
     mut share: Share<D>,
 ) -> Result<Assembled<D>, SolverError> {
@@ -78,34 +78,30 @@ pub(crate) fn assembled<const D: usize>(
     let mut choices = chosen::<D>(scene)?;
     let (laws, swing, lift) = bind_laws::<D>(scene, &drawn, &choices)?;
     movers::prepare(scene, &mut drawn, &mut choices, &laws)?;
-    let speeds = wall_speeds(scene, &drawn, &laws)?;
+    let speeds = wall_speeds::remarks(scene, &drawn, &laws)?;
     let opened = open_faces::prepare(scene, &mut drawn, &mut choices, &laws)?;
     let room = InitialWorld::for_share(scene, &drawn, &mut choices, &mut share)?;
+    let faces = open_faces::check(scene, &opened, &room, (&laws, &lift))?;
     let (walls, placed, mut warnings) = (room.walls, room.placed, room.warnings);
     let (leaks, room) = (room.leaks, room.world);
-    let filled = (&room, placed.positions.as_slice(), &laws, &lift);
-    let faces = open_faces::check(scene, &opened, walls.as_deref(), filled)?;
     warnings.extend(speeds.into_iter().chain(faces));
-    let mut ground = Ground::from_rheologies(&choices.rheologies);
-    let (kinematic_viscosities, constant) = kinematic_viscosities(scene, &choices.rheologies);
+    let (kinematic_viscosities, constant) = viscosities(scene, &choices.rheologies);
     let formulation: Arc<dyn Formulation<D>> = choices.formulation.into();
     let shown = shown(scene, &choices.probes);
     let mut parts = choices.parts;
     open_faces::join(scene, opened, &mut parts)?;
     let (free, outlets) = filled_columns(scene, &*formulation, &parts, &placed)?;
     let world = World { free, ..room };
-    let planned = PlanInput {
+    let soils = soil_remarks::soils(&choices.rheologies);
+    let planned = plan(
         scene,
-        formulation: &*formulation,
-        integrator: &*choices.integrator,
-        laws: &laws,
-        viscosities: &constant,
-        soils: &ground.soil,
-        walls: walls.as_deref(),
-        shown: &shown,
-    }
-    .plan(&world, &mut parts)?;
-    ground.saturated = planned.offer.saturated;
+        (&*formulation, &*choices.integrator),
+        (&laws, &constant, &soils),
+        (&world, walls.as_deref()),
+        &shown,
+        &mut parts,
+    )?;
+    let saturated = planned.offer.saturated;
     let diffused = formulation.diffused();
     let given = FlowInputs {
         walls,
@@ -126,7 +122,11 @@ pub(crate) fn assembled<const D: usize>(
         formulation: &*formulation,
         columns: &columns().collect::<Vec<_>>(),
     };
-    warnings.extend(remarks(scene, &ground, &placed, &mut flow)?);
+    flow.know_exits(scene);
+    flow.world.wrap()?;
+    let soils = soil_remarks::remarks(scene, &flow, &choices.rheologies, saturated)?;
+    warnings.extend(soils);
+    warnings.extend(lattices::remarks(scene, &flow, &placed.body)?);
     let relaxation = start(&beginning, &share, &mut flow)?;
     let (probes, integrator) = (&choices.probes, &*choices.integrator);
     accounts::open(scene, probes, integrator, &*formulation, &mut flow)?;
@@ -152,47 +152,10 @@ pub(crate) fn assembled<const D: usize>(
 /// The plugins of a scene, with all probes ready.
 fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
     let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
-    choices.probes.extend(field_error::probes(scene)?);
+    let errors = field_error::probes(scene, &mut choices.solutions);
+    choices.probes.extend(errors);
     probe_setup::prepare(scene, &mut choices.probes)?;
     Ok(choices)
-}
-
-/// Warnings about the places of the particles, which are brought into the box.
-fn remarks<const D: usize>(
-    scene: &Scene,
-    ground: &Ground,
-    placed: &PlacedParticles<D>,
-    flow: &mut Flow<D>,
-) -> Result<Vec<String>, SolverError> {
-    flow.know_exits(scene);
-    flow.world.wrap()?;
-    let mut all = ground.remarks(scene, flow)?;
-    all.extend(lattices::remarks(scene, flow, &placed.body)?);
-    Ok(all)
-}
-
-/// Refuses walls that are faster than sound in the slowest phase.
-fn wall_speeds<const D: usize>(
-    scene: &Scene,
-    drawn: &Drawn<D>,
-    laws: &Laws,
-) -> Result<Vec<String>, SolverError> {
-    let sounds = laws.iter().map(|law| law.reference().sound_speed);
-    let slowest = sounds.fold(f64::INFINITY, f64::min);
-    let found = speeds(scene, &drawn.walls, slowest, extent(&drawn.regions));
-    SolverError::refuse(found.refused).map(|()| found.remarks)
-}
-
-/// Input of a plan, before there is one.
-struct PlanInput<'a, const D: usize> {
-    scene: &'a Scene,
-    formulation: &'a dyn Formulation<D>,
-    integrator: &'a dyn Integrator,
-    laws: &'a Laws,
-    viscosities: &'a [Option<f64>],
-    soils: &'a [bool],
-    walls: Option<&'a dyn Wall<D>>,
-    shown: &'a [String],
 }
 
 /// True if a wall moves or slides.
@@ -200,55 +163,62 @@ pub fn moves(wall: &sph_scene::Wall) -> bool {
     wall.motion.is_some() || wall.velocity.is_some() || !wall.mover.is_empty()
 }
 
-impl<const D: usize> PlanInput<'_, D> {
-    fn plan(&self, world: &World<D>, parts: &mut [Part<D>]) -> Result<StagePlan<D>, SolverError> {
-        let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
-        let bodies: Vec<String> = self.scene.body.keys().cloned().collect();
-        let diffused = self.formulation.diffused();
-        let coefficients = self.integrator.coefficients();
-        let moving = self.scene.wall.iter().find(|(_, wall)| moves(wall));
-        let setting = Setting {
-            laws: self.laws,
-            phases: &phases,
-            bodies: &bodies,
-            viscosities: self.viscosities,
-            soils: self.soils,
-            density: diffused.evolved,
-            summed: self.formulation.compressed().is_none(),
-            pressure_ahead: self.scene.choice("pressure").is_some(),
-            courant: coefficients.courant,
-            viscous: coefficients.viscous,
-            kicks_once: self.integrator.kicks_once(),
-            delayed_yield: self.scene.numerics.delayed_yield,
-            carried: movers::carried(self.scene),
-            moving_wall: moving.map(|(name, _)| name.as_str()),
-            world,
-        };
-        let planning = Planning {
-            scene: self.scene,
-            setting: &setting,
-            walls: self.walls,
-            diffused,
-            shown: self.shown,
-        };
-        let mut planned = planning.plan(parts)?;
-        planned.offer.limiter(force_limit(coefficients.force));
-        let mut walls = self.scene.wall.values();
-        if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
-            planned.offer.limiter(motion_limit(WAY));
-        }
-        Ok(planned)
+/// Stages and limits of a flow, by its formulation and integrator, the laws of its phases with their constant
+/// viscosities and the marks of soils, and its walls.
+fn plan<const D: usize>(
+    scene: &Scene,
+    (formulation, integrator): (&dyn Formulation<D>, &dyn Integrator),
+    (laws, viscosities, soils): (&Laws, &[Option<f64>], &[bool]),
+    (world, walls): (&World<D>, Option<&dyn Wall<D>>),
+    shown: &[String],
+    parts: &mut [Part<D>],
+) -> Result<StagePlan<D>, SolverError> {
+    let phases: Vec<String> = scene.phase.keys().cloned().collect();
+    let bodies: Vec<String> = scene.body.keys().cloned().collect();
+    let diffused = formulation.diffused();
+    let coefficients = integrator.coefficients();
+    let moving = scene.wall.iter().find(|(_, wall)| moves(wall));
+    let setting = Setting {
+        laws,
+        phases: &phases,
+        bodies: &bodies,
+        viscosities,
+        soils,
+        density: diffused.evolved,
+        summed: formulation.compressed().is_none(),
+        pressure_ahead: scene.choice("pressure").is_some(),
+        courant: coefficients.courant,
+        viscous: coefficients.viscous,
+        kicks_once: integrator.kicks_once(),
+        delayed_yield: scene.numerics.delayed_yield,
+        carried: movers::carried(scene),
+        moving_wall: moving.map(|(name, _)| name.as_str()),
+        world,
+    };
+    let planning = Planning {
+        scene,
+        setting: &setting,
+        walls,
+        diffused,
+        shown,
+    };
+    let mut planned = planning.plan(parts)?;
+    planned.offer.limiter(force_limit(coefficients.force));
+    let mut walls = scene.wall.values();
+    if walls.any(|w| w.motion.is_some() || !w.mover.is_empty()) {
+        planned.offer.limiter(motion_limit(WAY));
     }
+    Ok(planned)
 }
 
-/// The columns that carry history.
-fn state<const D: usize>(
+/// The columns that carry history, with places, identities and phases in them, and where particles leave.
+fn filled_columns<const D: usize>(
     scene: &Scene,
     formulation: &dyn Formulation<D>,
     parts: &[Part<D>],
-    particles: usize,
-) -> Result<Store<D>, SolverError> {
-    let mut free = Store::new(particles);
+    placed: &PlacedParticles<D>,
+) -> Result<(Store<D>, Outlets), SolverError> {
+    let mut free = Store::new(placed.positions.len());
     free.add(fields::POSITION, Role::State);
     free.add(fields::VELOCITY, Role::State);
     free.add(fields::MASS, Role::State);
@@ -268,29 +238,8 @@ fn state<const D: usize>(
         }
         free.add_any(column.field, Role::State);
     }
-    Ok(free)
-}
-
-/// The columns that carry history, with places, identities and phases in them, and where particles leave.
-fn filled_columns<const D: usize>(
-    scene: &Scene,
-    formulation: &dyn Formulation<D>,
-    parts: &[Part<D>],
-    placed: &PlacedParticles<D>,
-) -> Result<(Store<D>, Outlets), SolverError> {
-    let mut free = state(scene, formulation, parts, placed.positions.len())?;
-    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)
-        .map_err(SolverError::Scene)?;
-    give_places(scene, &mut free, placed)?;
-    Ok((free, outlets))
-}
-
-/// Gives particles their places, identities and phases.
-fn give_places<const D: usize>(
-    scene: &Scene,
-    free: &mut Store<D>,
-    placed: &PlacedParticles<D>,
-) -> Result<(), SolverError> {
+    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free);
+    let outlets = outlets.map_err(SolverError::Scene)?;
     let count = free.len() as u32;
     free.get_mut(fields::POSITION)?
         .copy_from_slice(&placed.positions);
@@ -304,7 +253,7 @@ fn give_places<const D: usize>(
         identities: count,
         ..Inserted::default()
     });
-    Ok(())
+    Ok((free, outlets))
 }
 
 /// Keeps displacements where an output or a probe needs them; refuses outputs of fields that there are none of.
@@ -329,7 +278,7 @@ fn bind_laws<const D: usize>(
     choices: &Choices<D>,
 ) -> Result<(Laws, Option<VariableGravity<D>>, Lift), SolverError> {
     let swing = variable_gravity::from_scene::<D>(scene)?;
-    let head_of = |swing| variable_gravity::head(swing, scene, &drawn.regions);
+    let head_of = |swing| variable_gravity::head(swing, scene.run.end, &drawn.regions);
     let more = swing.as_ref().map_or(0.0, head_of);
     let head = height(scene, &drawn.regions) * scene.gravity::<D>().norm();
     let speeds = sound_speeds(scene, (head + more).sqrt())?;
@@ -348,10 +297,7 @@ fn bind_laws<const D: usize>(
 }
 
 /// η/ρ₀ of every phase, m²/s: the largest, and that of laws with one viscosity.
-fn kinematic_viscosities(
-    scene: &Scene,
-    laws: &[Box<dyn Rheology>],
-) -> (Vec<f64>, Vec<Option<f64>>) {
+fn viscosities(scene: &Scene, laws: &[Box<dyn Rheology>]) -> (Vec<f64>, Vec<Option<f64>>) {
     let laws = scene.phase.values().map(|p| p.density).zip(laws);
     let over = laws.map(|(density, law)| {
         let uniform = law.uniform_viscosity().map(|eta| eta / density);

@@ -13,22 +13,10 @@ use crate::setup::share::Share;
 /// # Errors
 /// Every problem of the scene, with its path; nothing is written.
 pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, SolverError> {
-    assemble_share(scene, Share::Whole)
-}
-
-/// The same for the start of a process. Where this is a part of the flow, all ranks assemble together.
-///
-/// # Errors
-/// Every problem of the scene; a flow that cannot be divided; another rank that failed.
-pub fn assemble_share<const D: usize>(
-    scene: &Scene,
-    share: Share<D>,
-) -> Result<Assembled<D>, SolverError> {
     const { assert!(D == 2 || D == 3, "flows have two or three dimensions") };
-    let share: Box<dyn Any> = Box::new(share);
     let made = match D {
-        2 => plane(scene, share),
-        _ => space(scene, share),
+        2 => plane(scene),
+        _ => space(scene),
     };
     match made?.downcast() {
         Ok(made) => Ok(*made),
@@ -36,19 +24,12 @@ pub fn assemble_share<const D: usize>(
     }
 }
 
-fn plane(scene: &Scene, share: Box<dyn Any>) -> Result<Box<dyn Any>, SolverError> {
-    Ok(Box::new(assembled::<2>(scene, *own(share))?))
+fn plane(scene: &Scene) -> Result<Box<dyn Any>, SolverError> {
+    Ok(Box::new(assembled::<2>(scene, Share::Whole)?))
 }
 
-fn space(scene: &Scene, share: Box<dyn Any>) -> Result<Box<dyn Any>, SolverError> {
-    Ok(Box::new(assembled::<3>(scene, *own(share))?))
-}
-
-fn own<const D: usize>(share: Box<dyn Any>) -> Box<Share<D>> {
-    match share.downcast() {
-        Ok(share) => share,
-        Err(_) => unreachable!("it is a share in {D} dimensions"),
-    }
+fn space(scene: &Scene) -> Result<Box<dyn Any>, SolverError> {
+    Ok(Box::new(assembled::<3>(scene, Share::Whole)?))
 }
 
 #[cfg(test)]

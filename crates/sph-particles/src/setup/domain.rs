@@ -7,24 +7,20 @@ use sph_solver::SolverError;
 
 use crate::setup::shapes::Drawn;
 
-/// Extent of all bodies along gravity, m.
-pub fn height<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
-    extent_along_gravity(scene, regions.iter())
-}
-
 /// Σ ρ g H over the phases, H the extent of a phase's bodies along gravity, Pa; zero without gravity.
 pub fn pressure_at_rest<const D: usize>(scene: &Scene, regions: &[Region<D>]) -> f64 {
     let of = |(name, phase): (&String, &sph_scene::Phase)| {
         let bodies = scene.body.values().zip(regions);
         let own = bodies.filter(|(body, _)| body.phase == *name);
-        phase.density * extent_along_gravity(scene, own.map(|(_, region)| region))
+        phase.density * height(scene, own.map(|(_, region)| region))
     };
     scene.gravity::<D>().norm() * scene.phase.iter().map(of).sum::<f64>()
 }
 
-fn extent_along_gravity<'a, const D: usize>(
+/// Extent of bodies along gravity, m.
+pub fn height<'a, const D: usize>(
     scene: &Scene,
-    regions: impl Iterator<Item = &'a Region<D>>,
+    regions: impl IntoIterator<Item = &'a Region<D>>,
 ) -> f64 {
     let gravity = scene.gravity::<D>();
     let Some(down) = gravity.try_normalize(0.0) else {
@@ -44,12 +40,12 @@ fn extent_along_gravity<'a, const D: usize>(
 }
 
 /// Corner number `n` of the 2ᴰ corners of a box.
-pub(crate) fn corner<const D: usize>(low: &Vect<D>, high: &Vect<D>, n: usize) -> Vect<D> {
+pub fn corner<const D: usize>(low: &Vect<D>, high: &Vect<D>, n: usize) -> Vect<D> {
     Vect::from_fn(|k, _| if n >> k & 1 == 0 { low[k] } else { high[k] })
 }
 
 /// Lower and upper corner of the box around places; without any an infinite one that is turned inside out.
-pub(crate) fn box_around<'a, const D: usize>(
+pub fn box_around<'a, const D: usize>(
     places: impl IntoIterator<Item = &'a Vect<D>>,
 ) -> [Vect<D>; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::repeat);
@@ -57,20 +53,21 @@ pub(crate) fn box_around<'a, const D: usize>(
     places.fold(none, |[low, high], x| [low.inf(x), high.sup(x)])
 }
 
-/// Largest extent of a body along an axis, m.
-pub fn extent<const D: usize>(regions: &[Region<D>]) -> f64 {
-    let of = |region: &Region<D>| {
-        let (low, high) = region.base.bounds();
-        (0..D).map(|k| high[k] - low[k]).fold(0.0, f64::max)
-    };
-    regions.iter().map(of).fold(0.0, f64::max)
-}
-
 /// Times at which the way of prescribed walls is sampled.
 const SAMPLES: usize = 1000;
 
-/// Widens a box so that prescribed walls stay `margin`, m, away from its borders until the end of the run.
-fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &mut Domain<D>) {
+/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
+pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
+    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
+    let boxes = bodies.chain(drawn.bounds);
+    let [lower, upper] = bounds(boxes.flat_map(|(low, high)| [low, high])).map(Vect::from);
+    // Splashes rise over an open tank; without walls the flow may go far.
+    let room = if scene.wall.is_empty() { 10.0 } else { 2.0 };
+    let extent = (upper - lower).max();
+    let margin = Vect::repeat(room * extent);
+    let mut domain = Domain::open(lower - margin, upper + margin);
+    // A least way of prescribed walls from the borders until the end of the run: shorter courses leave the box unchanged.
+    let margin = 0.5 * room * extent;
     for wall in drawn.walls.iter().filter(|w| w.motion.moves()) {
         let [low, high] = bounds(wall.drawing.points::<D>()).map(Vect::from);
         for n in 0..=SAMPLES {
@@ -85,20 +82,6 @@ fn sweep<const D: usize>(scene: &Scene, drawn: &Drawn<D>, margin: f64, domain: &
             }
         }
     }
-}
-
-/// The scene's domain, or a box round walls, on their prescribed way as well, and bodies with room to move.
-pub fn domain_of<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Domain<D> {
-    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
-    let boxes = bodies.chain(drawn.bounds);
-    let [lower, upper] = bounds(boxes.flat_map(|(low, high)| [low, high])).map(Vect::from);
-    // Splashes rise over an open tank; without walls the flow may go far.
-    let room = if scene.wall.is_empty() { 10.0 } else { 2.0 };
-    let extent = (upper - lower).max();
-    let margin = Vect::repeat(room * extent);
-    let mut domain = Domain::open(lower - margin, upper + margin);
-    // A least way: shorter courses of walls leave the box unchanged.
-    sweep(scene, drawn, 0.5 * room * extent, &mut domain);
     if let Some([low, high]) = &scene.numerics.domain {
         domain = Domain::open(Vect::from_column_slice(low), Vect::from_column_slice(high));
     }

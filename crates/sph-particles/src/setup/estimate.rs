@@ -107,24 +107,20 @@ pub struct Size {
     pub bytes: f64,
 }
 
-/// Neighbours of a particle in the list, for a kernel that reaches two smoothing lengths.
-fn neighbours<const D: usize>(scene: &Scene) -> f64 {
-    let numerics = &scene.numerics;
-    let skin = numerics.skin.unwrap_or(defaults::SKIN);
-    let reach = 2.0 * numerics.smoothing_ratio * (1.0 + skin);
-    match D {
-        3 => 4.0 / 3.0 * std::f64::consts::PI * reach.powi(3),
-        _ => std::f64::consts::PI * reach.powi(2),
-    }
-}
-
 impl Size {
     fn from_scene<const D: usize>(scene: &Scene, drawn: &Drawn<D>) -> Self {
         let spacing = scene.numerics.spacing;
         let particles = estimate(&drawn.regions, spacing);
         let wall_points = drawn.measure / spacing.powi(D as i32 - 1);
         let all = particles + wall_points;
-        let listed = neighbours::<D>(scene).min(all) * BYTES_PER_NEIGHBOUR;
+        let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
+        // Neighbours in the list, for a kernel that reaches two smoothing lengths.
+        let reach = 2.0 * scene.numerics.smoothing_ratio * (1.0 + skin);
+        let neighbours = match D {
+            3 => 4.0 / 3.0 * std::f64::consts::PI * reach.powi(3),
+            _ => std::f64::consts::PI * reach.powi(2),
+        };
+        let listed = neighbours.min(all) * BYTES_PER_NEIGHBOUR;
         let bytes = all * BYTES_PER_PARTICLE[usize::from(D == 3)].max(listed);
         Size {
             particles,
@@ -290,7 +286,7 @@ fn copies<const D: usize>(scene: &Scene, world: &World<D>) -> f64 {
 }
 
 /// Bytes of a particle in a column of `components` numbers each.
-pub(crate) fn bytes(components: usize, values: &Plain<'_>) -> usize {
+pub fn bytes(components: usize, values: &Plain<'_>) -> usize {
     match values {
         Plain::Real(_) => 8 * components,
         Plain::Index(_) => 4,

@@ -118,9 +118,6 @@ pub fn examine(scene: &Scene) -> Result<Examination, SolverError> {
 }
 
 /// As [`examine`] of a scene in `D` dimensions, with its assembly.
-///
-/// # Errors
-/// Every problem of the scene, with its path.
 pub fn examine_in<const D: usize>(
     scene: &Scene,
 ) -> Result<(Examination, Assembled<D>), SolverError> {
@@ -152,7 +149,6 @@ pub fn examine_in<const D: usize>(
             read_by: users(&|s| among(&s.reads_here) || among(&s.reads_at_neighbours)),
         }
     });
-    let fields = fields.collect();
     let particles = world.free.len();
     let neighbours = world.mean_neighbours()?;
     let estimate = Estimate::new(scene, particles as f64, dt, memory.total());
@@ -166,7 +162,7 @@ pub fn examine_in<const D: usize>(
             .chain(flow.inner_bounds.iter().cloned())
             .collect(),
         plugins: std::mem::take(&mut assembled.plugins),
-        fields,
+        fields: fields.collect(),
         bytes_per_particle: world.free.bytes_per_particle(),
         pruned: flow.pruned.clone(),
         particles,

@@ -1,11 +1,10 @@
 //! Box, kernel, walls and places of a scene: the world before it has columns.
 
-use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup, WallSpec};
+use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup};
 use sph_contribution::Plugins;
-use sph_core::Store;
 use sph_core::fields::SCALE;
 use sph_core::plausible::Quantity;
-use sph_kernels::Kernel;
+use sph_core::{Store, comma_list};
 use sph_multiphase::Formulation;
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
@@ -22,22 +21,16 @@ use crate::setup::share::Share;
 pub(crate) struct InitialWorld<const D: usize> {
     /// Without columns.
     pub world: World<D>,
-    /// The walls, if there are any.
     pub walls: Option<Box<dyn Wall<D>>>,
-    /// Places and bodies of the particles.
     pub placed: PlacedParticles<D>,
     /// Walls behind which fluid can get.
     pub leaks: Vec<Leak<D>>,
-    /// Remarks.
     pub warnings: Vec<String>,
 }
 
 impl<const D: usize> InitialWorld<D> {
     /// The room of a share of a flow: builds the walls and fills the bodies, and takes the wall plugin out of the choices.
     /// Among walls that stand already there is no particle.
-    ///
-    /// # Errors
-    /// The key of the scene that is wrong.
     pub fn for_share(
         scene: &Scene,
         drawn: &Drawn<D>,
@@ -61,10 +54,20 @@ impl<const D: usize> InitialWorld<D> {
             });
         }
         let mut warnings = scene.remarks.clone();
+        let build = |walls: &mut dyn Wall<D>, world: &World<D>| {
+            let setup = WallSetup {
+                walls: &drawn.walls,
+                spacing: scene.numerics.spacing,
+                smoothing_length: world.kernel.smoothing_length(),
+                kernel: &*choices.kernel,
+                domain: &world.domain,
+            };
+            let built = walls.build(&setup);
+            built.map_err(|e| wall_problem(scene, &e))
+        };
         if let Some(walls) = &mut choices.walls {
             check_scaling(scene, &**walls, &*choices.formulation)?;
-            let shape = &*choices.kernel;
-            world.walls = build_walls(scene, &drawn.walls, &mut **walls, shape, &world)?;
+            world.walls = build(&mut **walls, &world)?;
             warnings.extend(walls.warnings());
         }
         let placed = place(scene, &drawn.regions, choices.walls.as_deref());
@@ -75,10 +78,13 @@ impl<const D: usize> InitialWorld<D> {
             ends.map_err(|e| wall_problem(scene, &e))?;
             warnings.extend(thin_walls(scene, walls.thin_walls(&placed.positions))?);
         }
-        let elements = match world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
-            true => with_elements(scene, drawn, &world, choices),
-            false => None,
-        };
+        let mut elements = None;
+        if world.walls.elements.corners.is_empty() && !drawn.walls.is_empty() {
+            // As the default treatment cuts the walls, for a treatment without elements; nothing where it refuses them.
+            let plugins = Plugins::new(Vec::new(), Vec::new());
+            let walls = plugins.one::<D, WallEntry>();
+            elements = walls.and_then(|mut walls| build(&mut *walls, &world).ok());
+        }
         let skins = elements.as_ref().unwrap_or(&world.walls);
         let leaks = leaks(scene, &world, skins, &placed.positions);
         warnings.extend(leaks.iter().map(|leak| leak.text.clone()));
@@ -90,18 +96,6 @@ impl<const D: usize> InitialWorld<D> {
             warnings,
         })
     }
-}
-
-/// The walls as the default treatment cuts them into elements, for a treatment that has none; nothing where it refuses them.
-fn with_elements<const D: usize>(
-    scene: &Scene,
-    drawn: &Drawn<D>,
-    world: &World<D>,
-    choices: &Choices<D>,
-) -> Option<WallSet<D>> {
-    let nothing_named = Plugins::new(Vec::new(), Vec::new());
-    let mut walls = nothing_named.one::<D, WallEntry>()?;
-    build_walls(scene, &drawn.walls, &mut *walls, &*choices.kernel, world).ok()
 }
 
 /// A box with a kernel and nothing in it.
@@ -164,25 +158,6 @@ fn check_scaling<const D: usize>(
     Err(SolverError::at(refused.path, why))
 }
 
-/// Hands every drawn wall to the plugin; refusals point at the wall.
-fn build_walls<const D: usize>(
-    scene: &Scene,
-    drawn: &[WallSpec<D>],
-    walls: &mut dyn Wall<D>,
-    kernel: &dyn Kernel,
-    world: &World<D>,
-) -> Result<WallSet<D>, SolverError> {
-    let setup = WallSetup {
-        walls: drawn,
-        spacing: scene.numerics.spacing,
-        smoothing_length: world.kernel.smoothing_length(),
-        kernel,
-        domain: &world.domain,
-    };
-    let built = walls.build(&setup);
-    built.map_err(|e| wall_problem(scene, &e))
-}
-
 /// A refused wall, pointed at if its message names one of the scene's in backquotes.
 fn wall_problem(scene: &Scene, error: &BoundaryError) -> SolverError {
     let text = error.to_string();
@@ -197,19 +172,17 @@ fn thin_walls<const D: usize>(
     thin: Vec<ThinWall<D>>,
 ) -> Result<Vec<String>, SolverError> {
     let told = |thin: &ThinWall<D>, what: &str| {
-        let at: Vec<String> = thin.place.iter().map(|x| format!("{x:.4}")).collect();
+        let at = comma_list(thin.place.iter().map(|x| format!("{x:.4}")));
         // On the safe side of rounding.
         let (least, spacing) = (1.01 * thin.least, 0.99 * thin.spacing);
         format!(
-            "the wall is {:.2e} m thick near ({}), and {what} through it: make it {least:.2e} m thick or more, or \
+            "the wall is {:.2e} m thick near ({at}), and {what} through it: make it {least:.2e} m thick or more, or \
              `numerics.spacing` {spacing:.2e} m or less",
-            thin.thickness,
-            at.join(", ")
+            thin.thickness
         )
     };
     if let Some(thin) = thin.iter().find(|thin| thin.wet) {
-        let what = "the fluid on its two sides would feel each other";
-        let why = told(thin, what);
+        let why = told(thin, "the fluid on its two sides would feel each other");
         return Err(SolverError::at(format!("wall.{}", thin.wall), why));
     }
     let what = "fluid on its two sides would feel each other";

@@ -19,36 +19,18 @@ const FLAT: f64 = 0.1;
 /// Particles that make a contact.
 const ROW: usize = 4;
 
-/// Distances along one contact.
-#[derive(Clone, Copy, Default)]
-struct Contact {
-    number: usize,
-    sum: f64,
-    squares: f64,
-}
-
-impl Contact {
-    fn add(&mut self, distance: f64) {
-        self.number += 1;
-        self.sum += distance;
-        self.squares += distance * distance;
-    }
-
-    /// Mean distance where it is far from the fitting one, all along.
-    fn misfit(&self, fitting: f64) -> Option<f64> {
-        let mean = self.sum / self.number as f64;
-        let scatter = self.squares / self.number as f64 - mean * mean;
-        let scatter = scatter.max(0.0).sqrt();
-        let told = self.number >= ROW && scatter < FLAT && (mean - fitting).abs() > MISFIT;
-        told.then_some(mean)
-    }
+/// Mean of the distances along one contact where it is far from the fitting one, all along.
+fn misfit(distances: &[f64], fitting: f64) -> Option<f64> {
+    let number = distances.len() as f64;
+    let mean = distances.iter().sum::<f64>() / number;
+    let squares = distances.iter().map(|d| d * d).sum::<f64>();
+    let scatter = (squares / number - mean * mean).max(0.0).sqrt();
+    let told = distances.len() >= ROW && scatter < FLAT && (mean - fitting).abs() > MISFIT;
+    told.then_some(mean)
 }
 
 /// Remarks on bodies whose rows are not a spacing apart where they touch, or not from a flat wall; `body_of` gives the body of a
 /// particle's number.
-///
-/// # Errors
-/// If a column is missing.
 pub fn remarks<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,
@@ -63,8 +45,8 @@ pub fn remarks<const D: usize>(
     let identity = world.free.get(fields::IDENTITY)?;
     let body = |k: usize| body_of[identity[k] as usize];
     let names: Vec<&String> = scene.body.keys().collect();
-    let mut contacts: BTreeMap<[u32; 2], Contact> = BTreeMap::new();
-    let mut at_walls: BTreeMap<(u32, String), Contact> = BTreeMap::new();
+    let mut contacts: BTreeMap<[u32; 2], Vec<f64>> = BTreeMap::new();
+    let mut at_walls: BTreeMap<(u32, String), Vec<f64>> = BTreeMap::new();
     let walls = flow.walls.as_deref();
     // Where the first row belongs, in spacings from the wall.
     let first = walls.as_ref().map_or(1.0, |w| 1.0 - w.lattice_offset());
@@ -86,17 +68,17 @@ pub fn remarks<const D: usize>(
             });
         }
         for (other, apart) in nearest.into_iter().filter(|(_, d)| *d < CONTACT) {
-            contacts.entry([body(k), other]).or_default().add(apart);
+            contacts.entry([body(k), other]).or_default().push(apart);
         }
         let near = (first + CONTACT - 1.0) * world.spacing;
         if let Some((distance, name)) = walls.and_then(|w| w.clearance(x, near)) {
             let contact = at_walls.entry((body(k), name.to_string())).or_default();
-            contact.add(distance / world.spacing);
+            contact.push(distance / world.spacing);
         }
     }
     let mut remarks = Vec::new();
     for ([a, b], contact) in contacts {
-        remarks.extend(contact.misfit(1.0).map(|apart| {
+        remarks.extend(misfit(&contact, 1.0).map(|apart| {
             format!(
                 "the particles of `{}` and `{}` are {apart:.2} spacings apart where the bodies touch, and start currents: let the bodies start whole spacings from each other",
                 names[a as usize], names[b as usize]
@@ -104,7 +86,7 @@ pub fn remarks<const D: usize>(
         }));
     }
     for ((a, wall), contact) in at_walls {
-        remarks.extend(contact.misfit(first).map(|apart| {
+        remarks.extend(misfit(&contact, first).map(|apart| {
             format!(
                 "the first row of `{}` is {apart:.2} spacings from the wall `{wall}`, and {first} fit, which starts currents: let the body start whole spacings from the wall",
                 names[a as usize]

@@ -3,7 +3,7 @@
 //! A wall may end where fluid goes over its end on purpose: at the open top of a tank, at the brink of a plate. It may not
 //! end beside another wall, within a wall that holds the fluid, or with a gap below the level of the fluid at the start.
 
-use sph_core::{Vect, number};
+use sph_core::{Vect, comma_list, number};
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
 
@@ -24,7 +24,7 @@ pub struct Leak<const D: usize> {
 }
 
 /// All of them, of walls that have elements; the fluid is where the particles are.
-pub(crate) fn leaks<const D: usize>(
+pub fn leaks<const D: usize>(
     scene: &Scene,
     world: &World<D>,
     walls: &WallSet<D>,
@@ -33,26 +33,24 @@ pub(crate) fn leaks<const D: usize>(
     if walls.elements.corners.is_empty() {
         return Vec::new();
     }
-    let skins = Skins::new(walls, &world.domain);
     let about = LeakInput {
         scene,
         world,
         walls,
-        skins: &skins,
+        skins: Skins::new(walls, &world.domain),
         up: (world.gravity.norm() > 0.0).then(|| -world.gravity.normalize()),
         particles,
     };
-    let mut all: Vec<Leak<D>> = skins.rims.iter().filter_map(|r| about.rim(r)).collect();
-    let turned = (0..skins.all.len()).filter_map(|k| about.turned(k));
-    all.extend(turned);
-    all
+    let rims = about.skins.rims.iter().filter_map(|r| about.rim(r));
+    let turned = (0..about.skins.all.len()).filter_map(|k| about.turned(k));
+    rims.chain(turned).collect()
 }
 
 struct LeakInput<'a, const D: usize> {
     scene: &'a Scene,
     world: &'a World<D>,
     walls: &'a WallSet<D>,
-    skins: &'a Skins<D>,
+    skins: Skins<D>,
     /// Against gravity; none without it.
     up: Option<Vect<D>>,
     particles: &'a [Vect<D>],
@@ -80,7 +78,11 @@ impl<const D: usize> LeakInput<'_, D> {
         let first = wall(rim.nodes[0]);
         let told = |what: String| Some(self.leak(first, &what, places.clone()));
         let support = self.world.kernel.support_radius();
-        if rim.size(points, &self.world.domain) < support {
+        let wide = match D {
+            2 => rim.lid.norm(),
+            _ => (high - low).norm(),
+        };
+        if wide < support {
             return told(self.gap(rim));
         }
         let beside = self.neighbouring_points(rim, support);
@@ -97,11 +99,9 @@ impl<const D: usize> LeakInput<'_, D> {
         }
         let ends = self.ends(rim);
         let centre = 0.5 * (low + high);
-        let mut others = self.skins.all.iter().enumerate();
-        let around = |k: usize, skin: &Skin<D>| {
-            skin.holds && !rim.skins.contains(&k) && in_box(skin, &centre)
-        };
-        if let Some((_, skin)) = others.find(|(k, skin)| around(*k, skin)) {
+        let others = self.skins.all.iter().enumerate();
+        let mut others = others.filter(|(k, _)| !rim.skins.contains(k));
+        if let Some((_, skin)) = others.find(|(_, s)| s.holds && in_box(s, &centre)) {
             let holds = self.name(skin.wall);
             return told(format!(
                 "it ends at {ends}, within wall `{holds}`, and no wall goes on there: fluid gets behind it; close it{}",
@@ -110,14 +110,13 @@ impl<const D: usize> LeakInput<'_, D> {
         }
         let up = self.up?;
         let upright = rim.lid.dot(&up) > -UPRIGHT * rim.lid.norm();
-        let leaves = !self.scene.outlet.is_empty();
-        if upright && !leaves {
-            return told(format!(
-                "it is open at {ends}, below the level of the fluid at the start: fluid runs out there; close it, or \
-                 put an `[outlet.NAME]` where the fluid is to leave"
-            ));
+        if !upright || !self.scene.outlet.is_empty() {
+            return None;
         }
-        None
+        told(format!(
+            "it is open at {ends}, below the level of the fluid at the start: fluid runs out there; close it, or \
+             put an `[outlet.NAME]` where the fluid is to leave"
+        ))
     }
 
     fn gap(&self, rim: &Rim<D>) -> String {
@@ -252,19 +251,6 @@ impl<const D: usize> LeakInput<'_, D> {
     }
 }
 
-impl<const D: usize> Rim<D> {
-    /// Its width, m.
-    fn size(&self, points: &[Vect<D>], domain: &sph_neighbours::Domain<D>) -> f64 {
-        match (D, self.nodes.as_slice()) {
-            (2, [last, first]) => domain.nearest(points[*first] - points[*last]).norm(),
-            _ => {
-                let [low, high] = self.bounds(points);
-                (high - low).norm()
-            }
-        }
-    }
-}
-
 /// True if a place is in the box around a skin.
 fn in_box<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
     (0..D).all(|k| skin.low[k] <= x[k] && x[k] <= skin.high[k])
@@ -272,13 +258,9 @@ fn in_box<const D: usize>(skin: &Skin<D>, x: &Vect<D>) -> bool {
 
 /// The way to close a wall.
 fn closing<const D: usize>() -> &'static str {
-    match D {
-        2 => " (`closed = true`)",
-        _ => "",
-    }
+    if D == 2 { " (`closed = true`)" } else { "" }
 }
 
 fn place<const D: usize>(x: &Vect<D>) -> String {
-    let all: Vec<String> = x.iter().map(|x| number::plain(*x)).collect();
-    format!("({})", all.join(", "))
+    format!("({})", comma_list(x.iter().map(|x| number::plain(*x))))
 }

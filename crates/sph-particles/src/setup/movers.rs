@@ -12,10 +12,7 @@ use sph_solver::setup::Choices;
 use crate::setup::shapes::Drawn;
 
 /// Gives every mover the scene, and every wall its mover; takes the movers out of the choices.
-///
-/// # Errors
-/// The keys that do not fit.
-pub(crate) fn prepare<const D: usize>(
+pub fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
     choices: &mut Choices<D>,
@@ -59,7 +56,7 @@ pub(crate) fn prepare<const D: usize>(
 }
 
 /// True if the fluid moves with its walls: every wall has a prescribed motion, or no wall acts against gravity.
-pub(crate) fn carried(scene: &Scene) -> bool {
+pub fn carried(scene: &Scene) -> bool {
     let mut walls = scene.wall.values();
     match scene.wall.is_empty() {
         true => scene.numerics.gravity.iter().flatten().any(|g| *g != 0.0),

@@ -18,16 +18,15 @@ use sph_solver::setup::Choices;
 use sph_solver::{SolverError, defaults};
 
 use crate::setup::box_around;
+use crate::setup::initial_world::InitialWorld;
 use crate::setup::shapes::Drawn;
+use crate::setup::sound::slowest_sound;
 
 /// Distance in front of a port within which the free volume of a particle is measured, over the spacing.
 const ROOM: f64 = 0.5;
 
 /// Opens the walls of a scene that have a law for it; takes the laws out of the choices.
-///
-/// # Errors
-/// The keys that do not fit.
-pub(crate) fn prepare<const D: usize>(
+pub fn prepare<const D: usize>(
     scene: &Scene,
     drawn: &mut Drawn<D>,
     choices: &mut Choices<D>,
@@ -45,10 +44,9 @@ pub(crate) fn prepare<const D: usize>(
         return Err(SolverError::at(path(scene, first, ""), why));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
-    let speeds = laws.iter().map(|law| law.reference().sound_speed);
     let setting = OpenSetting {
         phases: &phases,
-        sound_speed: speeds.fold(f64::INFINITY, f64::min),
+        sound_speed: slowest_sound(laws),
         end: scene.run.end,
         gravity: scene.gravity::<D>().norm(),
         dimension: D,
@@ -85,21 +83,22 @@ fn path(scene: &Scene, wall: &str, key: &str) -> String {
 ///
 /// # Errors
 /// The law of a face that it does not fit, or before which there is no room.
-pub(crate) fn check<const D: usize>(
+pub fn check<const D: usize>(
     scene: &Scene,
     opened: &Option<OpenBoundaries<D>>,
-    walls: Option<&dyn Wall<D>>,
-    filled: FilledBox<'_, D>,
+    room: &InitialWorld<D>,
+    laws: (&Laws, &Lift),
 ) -> Result<Vec<String>, SolverError> {
     let Some(opened) = opened else {
         return Ok(Vec::new());
     };
-    let misfits = opened.misfits().into_iter();
-    let misfits = misfits
+    let misfits = opened
+        .misfits()
+        .into_iter()
         .map(|(wall, refusal)| SceneProblem::new(path(scene, &wall, &refusal.key), refusal.why));
     SolverError::refuse(misfits.collect())?;
     let mut blocked = Vec::<SceneProblem>::new();
-    if let Some(walls) = walls {
+    if let Some(walls) = &room.walls {
         for (name, place) in opened.in_front(ROOM * scene.numerics.spacing) {
             let path = path(scene, &name, "");
             if !walls.contains(&place) && blocked.iter().all(|p| p.path != path) {
@@ -113,27 +112,19 @@ pub(crate) fn check<const D: usize>(
         }
     }
     SolverError::refuse(blocked)?;
-    let mut all = remarks(scene, opened);
-    all.extend(lift(scene, opened, walls, filled));
-    Ok(all)
-}
-
-fn remarks<const D: usize>(scene: &Scene, opened: &OpenBoundaries<D>) -> Vec<String> {
-    if opened.let_out() || !scene.outlet.is_empty() {
-        return Vec::new();
-    }
     let outflow = defaults::OUTFLOW;
-    vec![format!(
-        "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
-         fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
-    )]
+    let closed = (!opened.let_out() && scene.outlet.is_empty()).then(|| {
+        format!(
+            "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \
+             fails; open another wall with {outflow}, `pressure` or `level`, or add an `[outlet.NAME]`"
+        )
+    });
+    let lifted = lift(scene, opened, room, laws);
+    Ok(closed.into_iter().chain(lifted).collect())
 }
 
 /// Joins open faces to the parts; refuses values of columns that no plugin of the scene brings along, and such as they cannot have.
-///
-/// # Errors
-/// The key of the value.
-pub(crate) fn join<const D: usize>(
+pub fn join<const D: usize>(
     scene: &Scene,
     opened: Option<OpenBoundaries<D>>,
     parts: &mut Vec<Part<D>>,
@@ -184,35 +175,26 @@ const MOST: f64 = 0.3;
 /// Distance over the spacing within which a particle fills a place.
 const NEAR: f64 = 0.8;
 
-/// A box, its particles, their laws and their lift.
-pub(crate) type FilledBox<'a, const D: usize> = (&'a World<D>, &'a [Vect<D>], &'a Laws, &'a Lift);
-
 /// Lifts the law of a full box of one phase if a face brakes its fluid and the law has no background pressure; a
 /// remark on it, or on the background pressure that is missing.
 fn lift<const D: usize>(
     scene: &Scene,
     opened: &OpenBoundaries<D>,
-    walls: Option<&dyn Wall<D>>,
-    (room, positions, laws, lift): FilledBox<'_, D>,
+    room: &InitialWorld<D>,
+    (laws, lift): (&Laws, &Lift),
 ) -> Option<String> {
-    let walls = walls?;
+    let (walls, positions) = (room.walls.as_deref()?, &room.placed.positions);
     let references = || laws.iter().map(|law| law.reference());
-    let speeds = references().map(|r| r.sound_speed);
-    let slowest = speeds.fold(f64::INFINITY, f64::min);
     positions.first()?;
     let [low, high] = box_around(positions);
     // Sound goes there and back.
-    let time = 2.0 * (high - low).norm() / slowest;
+    let time = 2.0 * (high - low).norm() / slowest_sound(laws);
     let (face, fall) = opened.braking(time, scene.run.end)?;
-    let at_reference = laws.iter().map(|law| {
-        let mut pressure = [0.0];
-        law.pressure(&[law.reference().density], &mut pressure);
-        pressure[0]
-    });
-    let background = at_reference.fold(0.0, f64::max);
+    let background = laws.iter().map(|law| law.background());
+    let background = background.fold(0.0, f64::max);
     let tensions = references().map(|r| r.density * r.sound_speed * fall);
     let tension = tensions.fold(0.0, f64::max);
-    if background >= tension || !is_full(room, walls, positions) {
+    if background >= tension || !is_full(&room.world, walls, positions) {
         return None;
     }
     let stiffness = references().map(|r| r.density * r.sound_speed.powi(2));
@@ -242,19 +224,19 @@ fn lift<const D: usize>(
 }
 
 /// True if every place a spacing beside a particle has another particle, or is behind a wall.
-fn is_full<const D: usize>(room: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
-    let reach = (1.0 + NEAR) * room.spacing;
-    let grid = CellGrid::new(positions, reach, &room.domain);
+fn is_full<const D: usize>(world: &World<D>, walls: &dyn Wall<D>, positions: &[Vect<D>]) -> bool {
+    let reach = (1.0 + NEAR) * world.spacing;
+    let grid = CellGrid::new(positions, reach, &world.domain);
     positions.iter().all(|x| {
         let mut around = Vec::new();
-        let way = |j: &u32| room.domain.nearest_image(positions[*j as usize] - x);
+        let way = |j: &u32| world.domain.nearest_image(positions[*j as usize] - x);
         grid.ranges(x, reach, |range| {
             around.extend(grid.order()[range].iter().map(way));
         });
         (0..2 * D).all(|side| {
             let mut way = Vect::<D>::zeros();
-            way[side / 2] = [room.spacing, -room.spacing][side % 2];
-            let near = |other: &Vect<D>| (other - way).norm() < NEAR * room.spacing;
+            way[side / 2] = [world.spacing, -world.spacing][side % 2];
+            let near = |other: &Vect<D>| (other - way).norm() < NEAR * world.spacing;
             around.iter().any(near) || !walls.contains(&(x + way))
         })
     })

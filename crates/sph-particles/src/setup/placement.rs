@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sph_boundary::Wall;
 use sph_core::place_cells::PlaceCells;
-use sph_core::{SceneProblem, Vect};
+use sph_core::{SceneProblem, Vect, comma_list};
 use sph_scene::{Body, BodyParticles, Offset, Region, Scene, disturb, fill};
 
 /// A particle nearer to a wall than this share of a spacing is left out.
@@ -12,11 +12,9 @@ const TOO_NEAR: f64 = 0.4;
 /// Positions with the number of their body, in the order of identities.
 #[derive(Default)]
 pub struct PlacedParticles<const D: usize> {
-    /// Positions, m.
     pub positions: Vec<Vect<D>>,
     /// Number of the body, in the scene's order of names.
     pub body: Vec<u32>,
-    /// Remarks.
     pub warnings: Vec<String>,
 }
 
@@ -38,7 +36,6 @@ pub fn place<const D: usize>(
         x if x < 0.25 => Offset::None,
         _ => Offset::Half,
     };
-    let periodic = scene.numerics.periodic.bounds::<D>();
     let filled = filled(scene, regions, offset);
     let bodies: Vec<(&String, &Body)> = scene.body.iter().collect();
     let mut placed = PlacedParticles::default();
@@ -93,7 +90,7 @@ pub fn place<const D: usize>(
         return Err(problems);
     }
     if let (Some(walls), Offset::Half, None) = (walls, offset, &scene.window) {
-        let remarks = shares(scene, regions, walls, &periodic, &numbers);
+        let remarks = shares(scene, regions, walls, &numbers);
         placed.warnings.extend(remarks);
     }
     Ok(placed)
@@ -165,13 +162,9 @@ fn facing_away<const D: usize>(
     Some(SceneProblem::new(format!("body.{body}"), why))
 }
 
-/// The nearest wall, looked for ever farther out.
-fn nearest<'a, const D: usize>(
-    x: &Vect<D>,
-    walls: &'a dyn Wall<D>,
-    spacing: f64,
-) -> Option<&'a str> {
-    let found = (0..12).find_map(|k| walls.clearance(x, spacing * f64::from(1 << k)));
+/// The nearest wall, looked for within a reach, m, and ever farther out.
+fn nearest<'a, const D: usize>(x: &Vect<D>, walls: &'a dyn Wall<D>, reach: f64) -> Option<&'a str> {
+    let found = (0..12).find_map(|k| walls.clearance(x, reach * f64::from(1 << k)));
     found.map(|(_, name)| name)
 }
 
@@ -202,7 +195,7 @@ fn through_a_wall<const D: usize>(
     walls: &dyn Wall<D>,
     spacing: f64,
 ) -> SceneProblem {
-    let at: Vec<String> = x.iter().map(|c| format!("{c:.6}")).collect();
+    let at = comma_list(x.iter().map(|c| format!("{c:.6}")));
     let named = nearest(x, walls, spacing);
     let wall = named.map_or(String::from("the walls"), |name| format!("wall `{name}`"));
     let side = match D {
@@ -210,9 +203,8 @@ fn through_a_wall<const D: usize>(
         _ => "the normals of every wall must point into the fluid",
     };
     let why = format!(
-        "the body reaches through {wall}: ({}) is behind it; {side}. `clip = true` keeps \
-         only what is in front of the walls",
-        at.join(", ")
+        "the body reaches through {wall}: ({at}) is behind it; {side}. `clip = true` keeps \
+         only what is in front of the walls"
     );
     SceneProblem::new(format!("body.{body}"), why)
 }
@@ -231,7 +223,6 @@ pub fn shares<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
     walls: &dyn Wall<D>,
-    periodic: &[Option<[f64; 2]>; D],
     kept: &[usize],
 ) -> Vec<String> {
     let spacing = scene.numerics.spacing;
@@ -244,7 +235,8 @@ pub fn shares<const D: usize>(
         return Vec::new();
     }
     let step = spacing / finer as f64;
-    let samples = fill(regions, step, Offset::Half, periodic);
+    let periodic = scene.numerics.periodic.bounds();
+    let samples = fill(regions, step, Offset::Half, &periodic);
     let share = |filled: &BodyParticles<D>| {
         let inside = filled.positions.iter().map(|x| Vect::from(*x));
         let inside = inside.filter(|x| walls.contains(x)).count() as f64;

@@ -10,9 +10,6 @@ use sph_solver::{Flow, SolverError};
 use crate::setup::reference_table::LONGEST;
 
 /// Gives the probes the names of the phases and the contents of their files, and refuses references to columns that no probe has.
-///
-/// # Errors
-/// All names that are not there, with the nearest one that is.
 pub fn prepare<const D: usize>(
     scene: &Scene,
     probes: &mut [(String, Box<dyn Probe<D>>)],
@@ -106,10 +103,7 @@ pub fn measure_walls<const D: usize>(
 }
 
 /// Refuses names of fields that no plugin of the scene has.
-///
-/// # Errors
-/// Every unknown name, with the nearest one that is known.
-pub(crate) fn check_output_fields<const D: usize>(
+pub fn check_output_fields<const D: usize>(
     scene: &Scene,
     flow: &Flow<D>,
 ) -> Result<(), SolverError> {

@@ -73,7 +73,20 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let all = owners.iter().zip(&costs);
     all.for_each(|(owner, c)| cost[*owner as usize] += c);
     let mean = (costs.iter().sum::<f64>() / ranks as f64).max(f64::MIN_POSITIVE);
-    let exchanges = sent(flow);
+    // Ghosts get the columns that a stage has summed over neighbours; they compute all others themselves.
+    let mut exchanges = Vec::new();
+    for stage in &flow.stages {
+        let Access { sweep, writes, .. } = stage.access();
+        let bytes = world.free.parcel_bytes(|f| writes.contains(f));
+        if sweep && bytes > 0 {
+            let columns = writes.iter().filter(|f| world.free.has(f.name));
+            exchanges.push(ExchangeUse {
+                stage: stage.name(),
+                columns: columns.map(|f| f.name.to_string()).collect(),
+                bytes,
+            });
+        }
+    }
     let largest = cost.iter().copied().fold(0.0, f64::max);
     let one = |rank: usize| RankUse {
         particles: halo.owned(rank),
@@ -89,24 +102,4 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
         bytes_per_newcomer: world.free.bytes_per_particle(),
         exchanges,
     })
-}
-
-/// Columns that ghosts get after each stage: those that it has summed over neighbours. Ghosts compute all others
-/// themselves.
-fn sent<const D: usize>(flow: &Flow<D>) -> Vec<ExchangeUse> {
-    let free = &flow.world.free;
-    let stages = flow
-        .stages
-        .iter()
-        .map(|stage| (stage.name(), stage.access()));
-    let sums = stages.filter(|(_, access)| access.sweep);
-    let all = sums.map(|(stage, Access { writes, .. })| {
-        let columns = writes.iter().filter(|f| free.has(f.name));
-        ExchangeUse {
-            stage,
-            bytes: free.parcel_bytes(|f| writes.contains(f)),
-            columns: columns.map(|f| f.name.to_string()).collect(),
-        }
-    });
-    all.filter(|told| told.bytes > 0).collect()
 }

@@ -13,21 +13,38 @@ pub const LONGEST: u64 = 64 << 20;
 pub fn readable(scene: &Scene) -> Result<(), SolverError> {
     for (name, reference) in &scene.reference {
         if let Some(path) = &reference.path {
-            let read = reference_table(reference, path);
+            let read = reference_series(reference, path);
             read.map_err(|e| SolverError::at(format!("reference.{name}.file"), e.to_string()))?;
         }
     }
     Ok(())
 }
 
-/// The reference's columns: time, value, and for a band the upper limit; finite numbers, in the order of time.
-pub fn reference_table(reference: &Reference, path: &Path) -> Result<Table, IoError> {
+/// Times, values, and the upper limits of a band: finite numbers, in the order of time, scaled as the reference says.
+pub fn reference_series(reference: &Reference, path: &Path) -> Result<[Vec<f64>; 3], IoError> {
     sph_io::readable(path, LONGEST)?;
-    let table = columns_of(reference, path)?;
-    match unfit(&table, reference.norm() == Norm::Band) {
-        None => Ok(table),
-        Some(problem) => Err(IoError::Unfit(path.into(), problem)),
+    let band = reference.norm() == Norm::Band;
+    let table = match (&reference.lower, &reference.upper) {
+        (Some(low), Some(high)) if band => {
+            let time = match &reference.columns {
+                Some(columns) => columns[0].clone(),
+                None => read_table(path)?.columns[0].name.clone(),
+            };
+            read_columns(path, &[&time, low, high])?
+        }
+        _ => named_or_all(path, reference.columns.as_deref())?,
+    };
+    if let Some(problem) = unfit(&table, band) {
+        return Err(IoError::Unfit(path.into(), problem));
     }
+    let scaled = |k: usize, scale: f64, offset: f64| -> Vec<f64> {
+        let column = table.columns.get(k).map_or(&[][..], |c| &c.values);
+        column.iter().map(|v| v * scale + offset).collect()
+    };
+    let times = scaled(0, reference.scale_time, reference.offset_time);
+    let value = |k: usize| scaled(k, reference.scale_value, reference.offset_value);
+    let high = if band { value(2) } else { Vec::new() };
+    Ok([times, value(1), high])
 }
 
 /// Errors of a table that cannot be compared with.
@@ -61,21 +78,8 @@ fn unfit(table: &Table, band: bool) -> Option<String> {
     still.then(|| "all its times are the same".to_string())
 }
 
-fn columns_of(reference: &Reference, path: &Path) -> Result<Table, IoError> {
-    if let (Norm::Band, Some(low), Some(high)) =
-        (reference.norm(), &reference.lower, &reference.upper)
-    {
-        let time = match &reference.columns {
-            Some(columns) => columns[0].clone(),
-            None => read_table(path)?.columns[0].name.clone(),
-        };
-        return read_columns(path, &[&time, low, high]);
-    }
-    named_or_all(path, reference.columns.as_deref())
-}
-
 /// The columns of these names, or all of a table.
-pub(crate) fn named_or_all(path: &Path, names: Option<&[String]>) -> Result<Table, IoError> {
+pub fn named_or_all(path: &Path, names: Option<&[String]>) -> Result<Table, IoError> {
     match names {
         Some(names) => {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use sph_boundary::Wall;
 use sph_core::{StepError, Vect, fields};
-use sph_neighbours::{CHUNK, Domain, NOBODY, Row, Scratch, World};
+use sph_neighbours::{CHUNK, NOBODY, Row, Scratch, World};
 use sph_scene::Scene;
+use sph_solver::Flow;
 
 use crate::setup::shapes::Drawn;
 
@@ -24,70 +25,23 @@ struct Concentration<const D: usize> {
     gradient: Vect<D>,
 }
 
-/// Relaxes the first particles if the scene has `relax`.
-///
-/// # Errors
-/// If a wall stage fails.
+/// Relaxes the first particles if the scene has `relax`: moves them down the gradient of their own concentration,
+/// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below its tolerance. Walls that scale the kernel have
+/// s_a s_b w in the place of w, and ∇ ln s Σ V s_a s_b w in that of −∇γ.
 pub fn relax<const D: usize>(
     scene: &Scene,
     drawn: &Drawn<D>,
-    world: &mut World<D>,
-    walls: Option<&mut dyn Wall<D>>,
+    flow: &mut Flow<D>,
 ) -> Result<Option<Relaxation>, StepError> {
+    let (world, walls) = (&mut flow.world, flow.walls.as_deref_mut());
     let (Some(settings), Some(walls)) = (scene.numerics.relax, walls) else {
         return Ok(None);
     };
-    let support = world.kernel.support_radius();
-    let domain = world.domain.clone();
-    let surface =
-        |x: &Vect<D>, walls: &dyn Wall<D>| near_surface(drawn, &domain, x, walls, support);
-    let (most, tolerance) = (settings.steps as usize, settings.tolerance);
-    relax_positions(world, walls, &surface, most, tolerance).map(Some)
-}
-
-/// True if air is within a support: a place of the fluid's side that belongs to no body.
-///
-/// Places are tried along the directions of a lattice of side 5, half a support and a whole one away.
-fn near_surface<const D: usize>(
-    drawn: &Drawn<D>,
-    domain: &Domain<D>,
-    x: &Vect<D>,
-    walls: &dyn Wall<D>,
-    support: f64,
-) -> bool {
-    // A place on a wall is on the edge of a body, too: not air.
-    let edge = -1e-6 * support;
-    let inside = |x: &Vect<D>| drawn.regions.iter().any(|r| r.depth(&(*x).into()) > edge);
-    (0..5_usize.pow(D as u32)).any(|n| {
-        let offset = Vect::<D>::from_fn(|k, _| (n / 5_usize.pow(k as u32) % 5) as f64 - 2.0);
-        let Some(direction) = offset.try_normalize(0.5) else {
-            return false;
-        };
-        [0.5, 1.0].iter().any(|part| {
-            let place = domain.wrapped(x + direction * (support * part));
-            !inside(&place) && walls.contains(&place)
-        })
-    })
-}
-
-/// Moves particles down the gradient of their own concentration,
-/// δr_a = −β h² [Σ θ V ∇w − ∇γ]/γ, until the largest error is below `tolerance`. Walls that scale the kernel have s_a s_b w
-/// in the place of w, and ∇ ln s Σ V s_a s_b w in that of −∇γ.
-///
-/// `surface` is whether a particle is within a support of a free surface.
-///
-/// # Errors
-/// If a wall stage fails.
-fn relax_positions<const D: usize>(
-    world: &mut World<D>,
-    walls: &mut dyn Wall<D>,
-    surface: &(dyn Fn(&Vect<D>, &dyn Wall<D>) -> bool + Sync),
-    most: usize,
-    tolerance: f64,
-) -> Result<Relaxation, StepError> {
     let position = world.free.get(fields::POSITION)?;
     let fixed: &dyn Wall<D> = walls;
-    let held = position.par_iter().map(|x| surface(x, fixed));
+    let held = position
+        .par_iter()
+        .map(|x| near_surface(drawn, world, x, fixed));
     let held: Vec<bool> = held.collect();
     // The marks follow the particles through sorting by their identities.
     let identity = world.free.get(fields::IDENTITY)?;
@@ -96,6 +50,7 @@ fn relax_positions<const D: usize>(
         held_by_identity[*id as usize] = *held;
     }
     let mut result: Option<Relaxation> = None;
+    let most = settings.steps as usize;
     for step in 0..=most {
         walls.geometry(world)?;
         let held = world.free.get(fields::IDENTITY)?.iter();
@@ -124,13 +79,38 @@ fn relax_positions<const D: usize>(
         });
         (so_far.steps, so_far.largest, so_far.rms) = (step, largest, rms);
         so_far.volume = 1.0 / mean;
-        if step == most || largest < tolerance || errors.is_empty() {
+        if step == most || largest < settings.tolerance || errors.is_empty() {
             break;
         }
         advance(world, walls, &all, &held)?;
         world.refresh_lists()?;
     }
-    result.ok_or_else(|| StepError::stage("relaxation", "no step was taken"))
+    Ok(result)
+}
+
+/// True if air is within a support: a place of the fluid's side that belongs to no body.
+///
+/// Places are tried along the directions of a lattice of side 5, half a support and a whole one away.
+fn near_surface<const D: usize>(
+    drawn: &Drawn<D>,
+    world: &World<D>,
+    x: &Vect<D>,
+    walls: &dyn Wall<D>,
+) -> bool {
+    let support = world.kernel.support_radius();
+    // A place on a wall is on the edge of a body, too: not air.
+    let edge = -1e-6 * support;
+    let inside = |x: &Vect<D>| drawn.regions.iter().any(|r| r.depth(&(*x).into()) > edge);
+    (0..5_usize.pow(D as u32)).any(|n| {
+        let offset = Vect::<D>::from_fn(|k, _| (n / 5_usize.pow(k as u32) % 5) as f64 - 2.0);
+        let Some(direction) = offset.try_normalize(0.5) else {
+            return false;
+        };
+        [0.5, 1.0].iter().any(|part| {
+            let place = world.domain.wrapped(x + direction * (support * part));
+            !inside(&place) && walls.contains(&place)
+        })
+    })
 }
 
 fn advance<const D: usize>(

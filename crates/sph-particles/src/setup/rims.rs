@@ -24,7 +24,6 @@ pub(crate) struct Skin<const D: usize> {
 pub(crate) struct Rim<const D: usize> {
     /// The skins, one or two.
     pub skins: [usize; 2],
-    /// Its points.
     pub nodes: Vec<usize>,
     /// Length or area that would close it, m^(D−1), times the normal into the fluid that this would have.
     pub lid: Vect<D>,

@@ -26,6 +26,7 @@ fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
 }
 
 /// Walls and bodies.
+#[derive(Default)]
 pub struct Drawn<const D: usize> {
     /// The walls; one that is drawn in several pieces is there once per piece.
     pub walls: Vec<WallSpec<D>>,
@@ -39,16 +40,8 @@ pub struct Drawn<const D: usize> {
 
 impl<const D: usize> Drawn<D> {
     /// Reads files and draws shapes.
-    ///
-    /// # Errors
-    /// If a file cannot be read or a shape is refused; the message points at the key.
     pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
-        let mut drawn = Drawn {
-            walls: Vec::new(),
-            bounds: None,
-            measure: 0.0,
-            regions: Vec::new(),
-        };
+        let mut drawn = Drawn::default();
         let mut pieces = 0;
         let mut beds = BTreeMap::new();
         // Those of shapes are known before any is drawn.
@@ -58,7 +51,13 @@ impl<const D: usize> Drawn<D> {
         }
         for (name, wall) in &scene.wall {
             let place = format!("wall.{name}");
-            let mut motion = motion_of::<D>(wall, &place, scene.run.end)?;
+            let mut motion = match &wall.motion {
+                None => RigidMotion::default(),
+                Some(motion) => match &motion.levels {
+                    Some(levels) => levels_of(levels, &format!("{place}.motion.levels"))?,
+                    None => rigid_motion(motion, &format!("{place}.motion"), scene.run.end)?,
+                },
+            };
             motion.bed = bed_of(scene, name, wall, &mut beds);
             let condition = match wall.condition {
                 SlipCondition::NoSlip => WallCondition::NoSlip,
@@ -206,23 +205,9 @@ fn bed_of(
     Some(erodible.clone())
 }
 
-fn motion_of<const D: usize>(
-    wall: &sph_scene::Wall,
-    place: &str,
-    end: f64,
-) -> Result<RigidMotion<D>, SolverError> {
-    let Some(motion) = &wall.motion else {
-        return Ok(RigidMotion::default());
-    };
-    if let Some(levels) = &motion.levels {
-        return levels_of(levels, &format!("{place}.motion.levels"));
-    }
-    rigid_motion(motion, &format!("{place}.motion"), end)
-}
-
 /// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene, `end` the end of the run,
 /// s.
-pub(crate) fn rigid_motion<const D: usize>(
+pub fn rigid_motion<const D: usize>(
     motion: &sph_scene::Motion,
     place: &str,
     end: f64,

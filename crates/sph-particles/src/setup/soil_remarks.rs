@@ -1,7 +1,7 @@
 //! Remarks on the soils of a scene before they move.
 
 use sph_core::place_cells::PlaceCells;
-use sph_core::{Vect, fields};
+use sph_core::{Vect, comma_list, fields};
 use sph_rheology::Rheology;
 use sph_scene::Scene;
 use sph_solver::{Flow, SolverError};
@@ -13,85 +13,71 @@ const GAP: f64 = 1.6;
 /// Spacings by which a soil may stand over the water that is to fill its pores.
 const DRY: f64 = 2.0;
 
-/// The soils among the phases of a scene.
-pub struct Ground {
-    /// Marks of phases whose law reads a pressure.
-    pub soil: Vec<bool>,
-    /// Diameter of its grains, m, if it has one.
-    grains: Vec<Option<f64>>,
-    /// True if the pores of soils are full of water.
-    pub saturated: bool,
+/// Marks of phases whose law reads a pressure.
+pub fn soils(rheologies: &[Box<dyn Rheology>]) -> Vec<bool> {
+    let marks = rheologies.iter().map(|law| law.needs().pressure);
+    marks.collect()
 }
 
-impl Ground {
-    /// From the plugins of a scene.
-    pub fn from_rheologies(rheologies: &[Box<dyn Rheology>]) -> Self {
-        let laws = || rheologies.iter();
-        Ground {
-            soil: laws().map(|law| law.needs().pressure).collect(),
-            grains: laws().map(|law| law.grain_diameter()).collect(),
-            saturated: false,
+/// Remarks on soils that are finer than their grains, stand dry while their pores are taken as `saturated`, full of
+/// water, or hang over a gap.
+pub fn remarks<const D: usize>(
+    scene: &Scene,
+    flow: &Flow<D>,
+    rheologies: &[Box<dyn Rheology>],
+    saturated: bool,
+) -> Result<Vec<String>, SolverError> {
+    let spacing = flow.world.spacing;
+    let mut remarks = Vec::new();
+    for (name, law) in scene.phase.keys().zip(rheologies) {
+        let ratio = law.grain_diameter().unwrap_or(0.0) / spacing;
+        if ratio > COARSE_GRAINS {
+            remarks.push(format!(
+                "a grain of `{name}` is {ratio:.0} spacings wide: the law is that of many grains in every \
+                 particle, best with one to three diameters per spacing, and erosion is too strong below"
+            ));
         }
     }
-
-    /// Remarks on soils that are finer than their grains, stand dry while they are taken as saturated, or hang over a gap.
-    ///
-    /// # Errors
-    /// If a column is missing.
-    pub fn remarks<const D: usize>(
-        &self,
-        scene: &Scene,
-        flow: &Flow<D>,
-    ) -> Result<Vec<String>, SolverError> {
-        let spacing = flow.world.spacing;
-        let mut remarks = Vec::new();
-        for (name, grain) in scene.phase.keys().zip(&self.grains) {
-            let ratio = grain.unwrap_or(0.0) / spacing;
-            if ratio > COARSE_GRAINS {
-                remarks.push(format!(
-                    "a grain of `{name}` is {ratio:.0} spacings wide: the law is that of many grains in every \
-                     particle, best with one to three diameters per spacing, and erosion is too strong below"
-                ));
+    if flow.world.gravity.norm() > 0.0 {
+        let free = &flow.world.free;
+        let (position, phase) = (free.get(fields::POSITION)?, free.get(fields::PHASE).ok());
+        let phase = (0..position.len()).map(|k| phase.map_or(0, |p| p[k] as usize));
+        let phase: Vec<usize> = phase.collect();
+        let particles = (position, &phase[..]);
+        let soil = soils(rheologies);
+        for (number, name) in scene.phase.keys().enumerate().filter(|(k, _)| soil[*k]) {
+            if saturated {
+                remarks.extend(dry((number, name), &soil, particles, flow));
             }
+            remarks.extend(hanging((number, name), particles, flow));
         }
-        if flow.world.gravity.norm() > 0.0 {
-            let free = &flow.world.free;
-            let (position, phase) = (free.get(fields::POSITION)?, free.get(fields::PHASE).ok());
-            let phase = (0..position.len()).map(|k| phase.map_or(0, |p| p[k] as usize));
-            let phase: Vec<usize> = phase.collect();
-            let particles = (position, &phase[..]);
-            let soils = scene.phase.keys().enumerate();
-            for (number, name) in soils.filter(|(k, _)| self.soil[*k]) {
-                remarks.extend(self.dry((number, name), particles, flow));
-                remarks.extend(hanging((number, name), particles, flow));
-            }
-        }
-        Ok(remarks)
     }
+    Ok(remarks)
+}
 
-    fn dry<const D: usize>(
-        &self,
-        (number, name): (usize, &str),
-        (position, phase): Particles<'_, D>,
-        flow: &Flow<D>,
-    ) -> Option<String> {
-        let up = -flow.world.gravity.normalize();
-        let heights = || position.iter().map(|x| x.dot(&up)).zip(phase);
-        let fluid = heights().filter(|(_, phase)| !self.soil[**phase]);
-        let water = fluid.map(|(height, _)| height);
-        let water = water.fold(f64::NEG_INFINITY, f64::max);
-        let own = || heights().filter(|(_, phase)| **phase == number);
-        let dry = |height: f64| height > water + DRY * flow.world.spacing;
-        let (all, above) = (own().count(), own().filter(|(h, _)| dry(*h)).count());
-        // A soil without any water beside it may stand for one under water that rests.
-        (self.saturated && above > 0 && water.is_finite()).then(|| {
-            format!(
-                "{:.0} % of `{name}` stands above the highest water, at {water:.4} m, but \
-                 `effective-pressure` takes its pores as full of water: there it presses with its weight under water",
-                100.0 * above as f64 / all as f64
-            )
-        })
-    }
+/// A remark if a soil stands above the highest water.
+fn dry<const D: usize>(
+    (number, name): (usize, &str),
+    soil: &[bool],
+    (position, phase): Particles<'_, D>,
+    flow: &Flow<D>,
+) -> Option<String> {
+    let up = -flow.world.gravity.normalize();
+    let heights = || position.iter().map(|x| x.dot(&up)).zip(phase);
+    let fluid = heights().filter(|(_, phase)| !soil[**phase]);
+    let water = fluid.map(|(height, _)| height);
+    let water = water.fold(f64::NEG_INFINITY, f64::max);
+    let own = || heights().filter(|(_, phase)| **phase == number);
+    let dry = |height: f64| height > water + DRY * flow.world.spacing;
+    let (all, above) = (own().count(), own().filter(|(h, _)| dry(*h)).count());
+    // A soil without any water beside it may stand for one under water that rests.
+    (above > 0 && water.is_finite()).then(|| {
+        format!(
+            "{:.0} % of `{name}` stands above the highest water, at {water:.4} m, but \
+             `effective-pressure` takes its pores as full of water: there it presses with its weight under water",
+            100.0 * above as f64 / all as f64
+        )
+    })
 }
 
 /// Places of the particles, and the numbers of their phases.
@@ -120,11 +106,10 @@ fn hanging<const D: usize>(
     let hang = |k: &usize| walls.clearance(&position[*k], reach).is_none() && !beneath(*k);
     let hanging: Vec<usize> = grains.filter(hang).collect();
     hanging.first().map(|k| {
-        let place: Vec<String> = position[*k].iter().map(|x| format!("{x:.4}")).collect();
+        let place = comma_list(position[*k].iter().map(|x| format!("{x:.4}")));
         format!(
-            "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({}): the bed will fall",
-            hanging.len(),
-            place.join(", ")
+            "{} particles of `{name}` have neither a wall nor a fluid beneath them, one of them at ({place}): the bed will fall",
+            hanging.len()
         )
     })
 }

@@ -1,5 +1,6 @@
 //! The numerical speed of sound of every phase.
 
+use sph_rheology::state::Laws;
 use sph_scene::{Phase, PressureOf, ReferencePressure, Scene};
 use sph_solver::SolverError;
 
@@ -28,6 +29,12 @@ pub fn sound_speeds(scene: &Scene, fall: f64) -> Result<Vec<f64>, SolverError> {
     };
     let speeds = phases().map(|(_, p)| (pressure / p.density).sqrt());
     Ok(speeds.collect())
+}
+
+/// The least speed of sound of all phases, m/s.
+pub fn slowest_sound(laws: &Laws) -> f64 {
+    let sounds = laws.iter().map(|law| law.reference().sound_speed);
+    sounds.fold(f64::INFINITY, f64::min)
 }
 
 /// The speed of sound of a phase by itself.

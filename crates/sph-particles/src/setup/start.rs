@@ -16,29 +16,26 @@ use crate::setup::share::{Share, all_ready, refuse_the_indivisible};
 
 /// Input of the first state of all particles.
 pub(crate) struct Start<'a, const D: usize> {
-    /// The scene.
     pub scene: &'a Scene,
-    /// Its bodies as shapes.
     pub drawn: &'a Drawn<D>,
     /// Body that a particle comes from, by its number.
     pub body_of: &'a [u32],
     /// Initial fields, by the body's name.
     pub initial: &'a [(String, Box<dyn Solution<D>>)],
-    /// The formulation of density.
     pub formulation: &'a dyn Formulation<D>,
     /// Columns that contributions bring along.
     pub columns: &'a [OwnColumn<D>],
 }
 
 /// Number of the phase of every body, in the scene's order of names.
-pub(crate) fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
+pub fn phases_of_bodies(scene: &Scene) -> Vec<u32> {
     let of = |body: &sph_scene::Body| scene.phase.keys().position(|p| *p == body.phase);
     let all = scene.body.values();
     all.map(|body| of(body).unwrap_or(0) as u32).collect()
 }
 
 /// Sorts the particles and gives them their initial state; those of a rank's part if this is its `share`.
-pub(crate) fn start<const D: usize>(
+pub fn start<const D: usize>(
     given: &Start<'_, D>,
     share: &Share<D>,
     flow: &mut Flow<D>,
@@ -46,10 +43,8 @@ pub(crate) fn start<const D: usize>(
     let relaxation = match share {
         Share::Blank | Share::Columns(_) => return Ok(None),
         Share::Whole => {
-            let world = &mut flow.world;
-            world.rebuild_lists()?;
-            let walls = flow.walls.as_deref_mut().map(|walls| walls as _);
-            relax(given.scene, given.drawn, world, walls)?
+            flow.world.rebuild_lists()?;
+            relax(given.scene, given.drawn, flow)?
         }
         Share::Part(ranks) => {
             refuse_the_indivisible(flow, ranks.ranks())?;
@@ -82,20 +77,21 @@ fn give_state<const D: usize>(
     let Start { scene, drawn, .. } = given;
     let world = &mut flow.world;
     let layers = Layers::from_scene(scene, &drawn.regions);
-    let phase_of = phases_of_bodies(scene);
-    let mut states = Vec::new();
-    for (k, ((name, body), region)) in scene.body.iter().zip(&drawn.regions).enumerate() {
+    let gravity = scene.gravity::<D>();
+    let bodies = scene.body.iter().zip(&drawn.regions);
+    let states = bodies.zip(phases_of_bodies(scene));
+    let states = states.map(|(((name, body), region), phase)| {
         let field = given.initial.iter().find(|(n, _)| n == name);
-        let field = field.map(|(_, f)| &**f);
-        states.push(InitialState::new(
-            scene,
+        InitialState {
             body,
-            region,
-            &*flow.laws[phase_of[k] as usize],
-            field,
-            layers.as_ref(),
-        ));
-    }
+            law: &*flow.laws[phase as usize],
+            field: field.map(|(_, f)| &**f),
+            layers: layers.as_ref().filter(|_| body.surface.is_none()),
+            gravity,
+            surface: body.surface.unwrap_or_else(|| top(region, &gravity)),
+        }
+    });
+    let states: Vec<InitialState<'_, D>> = states.collect();
     let identity = world.free.get(fields::IDENTITY)?.to_vec();
     let position = world.free.get(fields::POSITION)?.to_vec();
     let body = |k: usize| given.body_of[identity[k] as usize] as usize;
@@ -113,14 +109,10 @@ fn give_state<const D: usize>(
         }
         world.free.get_mut(fields::VELOCITY)?[k] = velocity;
     }
-    let phases: Vec<&String> = scene.phase.keys().collect();
-    let bodies: Vec<&str> = scene.body.keys().map(String::as_str).collect();
+    let names = scene.body.iter();
+    let names: Vec<(&str, &str)> = names.map(|(name, body)| (&*body.phase, &**name)).collect();
     for column in given.columns {
-        let name = |k: usize| {
-            let body = body(k);
-            (phases[phase_of[body] as usize].as_str(), bodies[body])
-        };
-        fill(world, column, name)?;
+        fill(world, column, |k| names[body(k)])?;
     }
     if let Some(walls) = &mut flow.walls {
         walls.geometry(world)?;
@@ -163,8 +155,18 @@ fn fill<'n, const D: usize>(
     Ok(())
 }
 
+/// Height of the free surface of a region along −gravity, m.
+fn top<const D: usize>(region: &Region<D>, gravity: &Vect<D>) -> f64 {
+    let (lower, upper) = region.base.bounds();
+    let highest = (0..D).map(|k| match gravity[k] > 0.0 {
+        true => -gravity[k] * lower[k],
+        false => -gravity[k] * upper[k],
+    });
+    highest.sum::<f64>() / gravity.norm().max(f64::MIN_POSITIVE)
+}
+
 /// Density and velocity of a body's particles at the start.
-pub struct InitialState<'a, const D: usize> {
+struct InitialState<'a, const D: usize> {
     body: &'a Body,
     law: &'a dyn BoundState,
     field: Option<&'a dyn Solution<D>>,
@@ -175,35 +177,9 @@ pub struct InitialState<'a, const D: usize> {
     surface: f64,
 }
 
-impl<'a, const D: usize> InitialState<'a, D> {
-    /// The state of one body.
-    pub fn new(
-        scene: &Scene,
-        body: &'a Body,
-        region: &Region<D>,
-        law: &'a dyn BoundState,
-        field: Option<&'a dyn Solution<D>>,
-        layers: Option<&'a Layers<'a, D>>,
-    ) -> Self {
-        let gravity = scene.gravity::<D>();
-        let (lower, upper) = region.base.bounds();
-        let highest = (0..D).map(|k| match gravity[k] > 0.0 {
-            true => -gravity[k] * lower[k],
-            false => -gravity[k] * upper[k],
-        });
-        let top = highest.sum::<f64>() / gravity.norm().max(f64::MIN_POSITIVE);
-        InitialState {
-            body,
-            law,
-            field,
-            layers: layers.filter(|_| body.surface.is_none()),
-            gravity,
-            surface: body.surface.unwrap_or(top),
-        }
-    }
-
+impl<const D: usize> InitialState<'_, D> {
     /// Density, kg/m³, at a position.
-    pub fn density(&self, x: &Vect<D>) -> f64 {
+    fn density(&self, x: &Vect<D>) -> f64 {
         let given = self.field.and_then(|f| f.pressure(x, 0.0));
         let pressure = given.unwrap_or_else(|| match self.body.pressure {
             Pressure::Zero => 0.0,
@@ -219,20 +195,12 @@ impl<'a, const D: usize> InitialState<'a, D> {
         match (given, self.body.pressure) {
             (None, Pressure::Zero) => self.law.reference().density,
             // Given pressures count from that of the reference density.
-            _ => self.law.density(pressure + self.background()),
+            _ => self.law.density(pressure + self.law.background()),
         }
     }
 
-    /// Pressure at the reference density, Pa.
-    fn background(&self) -> f64 {
-        let mut pressure = [0.0];
-        self.law
-            .pressure(&[self.law.reference().density], &mut pressure);
-        pressure[0]
-    }
-
     /// Velocity, m/s, at a position.
-    pub fn velocity(&self, x: &Vect<D>) -> Vect<D> {
+    fn velocity(&self, x: &Vect<D>) -> Vect<D> {
         let plain = self.body.velocity.as_deref();
         let plain = plain.map_or_else(Vect::zeros, Vect::from_column_slice);
         let wave = self.body.wave.as_ref();

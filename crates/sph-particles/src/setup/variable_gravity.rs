@@ -30,8 +30,20 @@ pub fn from_scene<const D: usize>(
             None => RigidMotion::default(),
         },
         given: match &numerics.gravity_over_time {
-            Some(given) => given_of(given)?,
             None => AddedGravity::None,
+            Some(given) => match (&given.sine, &given.table) {
+                (Some(sine), _) => {
+                    let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
+                    let begin = sine.phase.sin();
+                    let first = if sine.ramp > 0.0 { 0.0 } else { begin };
+                    AddedGravity::Sine(vector(&sine.amplitude), course, first)
+                }
+                (None, Some(rows)) => {
+                    let rows = rows.iter().map(|row| (row[0], vector(&row[1..])));
+                    AddedGravity::Rows(rows.collect())
+                }
+                (None, None) => AddedGravity::Rows(read(given)?),
+            },
         },
     };
     let largest = largest_of(&swing, scene.run.end);
@@ -61,31 +73,13 @@ fn largest_of<const D: usize>(swing: &VariableGravity<D>, end: f64) -> Vect<D> {
     })
 }
 
-/// Σ a_k L_k with the largest entries and the extent of all bodies, m²/s²: its addend to g H.
-pub(crate) fn head<const D: usize>(
-    swing: &VariableGravity<D>,
-    scene: &Scene,
-    regions: &[Region<D>],
-) -> f64 {
-    let largest = largest_of(swing, scene.run.end);
+/// Σ a_k L_k with the largest entries until a time (s) and the extent of all bodies, m²/s²: its addend to g H.
+pub fn head<const D: usize>(swing: &VariableGravity<D>, end: f64, regions: &[Region<D>]) -> f64 {
+    let largest = largest_of(swing, end);
     let corners = regions.iter().map(|region| region.base.bounds());
     let [low, high] = bounds(corners.flat_map(|(low, high)| [low, high]));
     let extent = |k: usize| (high[k] - low[k]).max(0.0);
     (0..D).map(|k| largest[k] * extent(k)).sum()
-}
-
-fn given_of<const D: usize>(given: &GravityOverTime) -> Result<AddedGravity<D>, SolverError> {
-    if let Some(sine) = &given.sine {
-        let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
-        let begin = sine.phase.sin();
-        let first = if sine.ramp > 0.0 { 0.0 } else { begin };
-        return Ok(AddedGravity::Sine(vector(&sine.amplitude), course, first));
-    }
-    let rows = match &given.table {
-        Some(rows) => rows.iter().map(|row| (row[0], vector(&row[1..]))).collect(),
-        None => read(given)?,
-    };
-    Ok(AddedGravity::Rows(rows))
 }
 
 fn vector<const D: usize>(entries: &[f64]) -> Vect<D> {

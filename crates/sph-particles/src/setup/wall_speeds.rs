@@ -2,7 +2,12 @@
 
 use sph_boundary::WallSpec;
 use sph_core::{SceneProblem, number};
+use sph_rheology::state::Laws;
 use sph_scene::Scene;
+use sph_solver::SolverError;
+
+use crate::setup::shapes::Drawn;
+use crate::setup::sound::slowest_sound;
 
 /// Times at which the motion of walls is sampled.
 const SAMPLES: usize = 1000;
@@ -15,32 +20,25 @@ const FAST: f64 = 0.3;
 /// Changes of the speed of a vessel count by the speed of sound: as before.
 const SPEEDS: [f64; 2] = [1.0, 10.0];
 
-/// Problems and remarks.
-pub struct Speeds {
-    /// Refusals.
-    pub refused: Vec<SceneProblem>,
-    /// Remarks.
-    pub remarks: Vec<String>,
-}
-
-/// The speeds of the walls before the end of the run, for a speed of sound, m/s, and a length of the fluid, m.
+/// Remarks on the speeds of the walls before the end of the run.
 ///
-/// A wall of which a corner is faster than sound against the slowest wall at some time is refused. A vessel whose walls
-/// all move together carries its fluid along and may be of any speed; the effect of its acceleration on the fluid may
-/// not.
-pub fn speeds<const D: usize>(
+/// # Errors
+/// A wall of which a corner is faster than sound against the slowest wall at some time. A vessel whose walls all move
+/// together carries its fluid along and may be of any speed; the effect of its acceleration on the fluid may not.
+pub fn remarks<const D: usize>(
     scene: &Scene,
-    walls: &[WallSpec<D>],
-    sound: f64,
-    length: f64,
-) -> Speeds {
-    let mut found = Speeds {
-        refused: Vec::new(),
-        remarks: Vec::new(),
-    };
+    drawn: &Drawn<D>,
+    laws: &Laws,
+) -> Result<Vec<String>, SolverError> {
+    let walls = &drawn.walls[..];
+    let (mut refused, mut remarks) = (Vec::new(), Vec::new());
     if !walls.iter().any(|w| w.motion.moves()) {
-        return found;
+        return Ok(remarks);
     }
+    let sound = slowest_sound(laws);
+    let bodies = drawn.regions.iter().map(|region| region.base.bounds());
+    let extents = bodies.flat_map(|(low, high)| (0..D).map(move |k| high[k] - low[k]));
+    let length = extents.fold(0.0, f64::max);
     let (end, crossing) = (scene.run.end, length / sound);
     let times = (0..SAMPLES).map(|n| end * (n as f64 + 0.5) / SAMPLES as f64);
     let jumps = walls.iter().flat_map(|w| w.motion.steepest());
@@ -73,21 +71,19 @@ pub fn speeds<const D: usize>(
                 "the wall moves with {v:.3} m/s, faster than sound in the slowest phase, {sound:.3} m/s, at {at}: what \
                  is before it would be pressed together; slow it down, or raise `speed_of_sound`"
             );
-            found.refused.push(SceneProblem::new(path, message));
+            refused.push(SceneProblem::new(path, message));
         } else {
             let (name, share) = (wall.drawing.name(), number::percent(v / sound));
             let v = number::plain(v);
-            found.remarks.push(format!(
+            remarks.push(format!(
                 "wall `{name}` moves with {v} m/s at {at}, {share} of the speed of sound: what is before it is pressed \
                  together"
             ));
         }
     }
-    if found.refused.is_empty() {
-        let most = [pressed, changed];
-        vessel(scene, walls, (sound, length), most, &mut found);
-    }
-    found
+    SolverError::refuse(refused)?;
+    remarks.extend(vessel(scene, walls, (sound, length), [pressed, changed])?);
+    Ok(remarks)
 }
 
 /// Judges the largest pressing and change of speed of a vessel, each with its time.
@@ -96,8 +92,7 @@ fn vessel<const D: usize>(
     walls: &[WallSpec<D>],
     (sound, length): (f64, f64),
     [pressed, changed]: [(f64, f64); 2],
-    found: &mut Speeds,
-) {
+) -> Result<Option<String>, SolverError> {
     let acceleration = number::plain(pressed.0 * sound * sound / length);
     let share = number::percent(pressed.0);
     let acceleration = format!(
@@ -109,7 +104,7 @@ fn vessel<const D: usize>(
     let said = told.filter(|((x, _), [least, _], _)| x >= least);
     let worst = said.max_by(|a, b| (a.0.0 / a.1[1]).total_cmp(&(b.0.0 / b.1[1])));
     let Some(((x, time), [_, most], what)) = worst else {
-        return;
+        return Ok(None);
     };
     let (path, place) = told_at(scene, walls, time);
     let sound = number::plain(sound);
@@ -119,8 +114,8 @@ fn vessel<const D: usize>(
         number::plain(time)
     );
     match x >= most {
-        true => found.refused.push(SceneProblem::new(path, message)),
-        false => found.remarks.push(message),
+        true => Err(SolverError::at(path, message)),
+        false => Ok(Some(message)),
     }
 }
 
@@ -143,7 +138,7 @@ fn known(x: f64) -> f64 {
 }
 
 /// Largest speed of the corners of a wall, and how much their velocities have changed since a time before, m/s.
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 struct WallSpeed {
     speed: f64,
     change: f64,

@@ -32,6 +32,12 @@ pub trait BoundState: Send + Sync + std::fmt::Debug {
     fn internal_energy(&self, density: f64) -> f64;
     /// The reference state.
     fn reference(&self) -> Reference;
+    /// Pressure at the reference density, Pa.
+    fn background(&self) -> f64 {
+        let mut pressure = [0.0];
+        self.pressure(&[self.reference().density], &mut pressure);
+        pressure[0]
+    }
 }
 
 /// The equations of state of a scene with their reference states, in the order of the phase numbers.
