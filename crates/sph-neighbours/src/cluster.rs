@@ -6,10 +6,11 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Lane, MOST, Width, dispatch_at};
 
+use crate::buffer::grow;
 use crate::lane_pair::LanePair;
 use crate::members::Members;
 use crate::scaling::Scaling;
-use crate::separation::{Distances, grow};
+use crate::separation::Distances;
 use crate::{ContactRow, Contacts, Domain, HiddenPairs, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.

@@ -8,11 +8,11 @@ use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
 use crate::blocks::each_block;
+use crate::buffer::grow;
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
 use crate::pair_sum::{PairSum, sum_cluster};
 use crate::particles::Particles;
-use crate::separation::grow;
 use crate::sweep::{Sweep, TaskScratch};
 use crate::{CHUNK, Neighbourhood, World};
 

@@ -6,10 +6,13 @@ use rayon::prelude::*;
 use sph_core::{Pool, Vect};
 use sph_kernels::lanes::{Body, Lane, dispatch_at, width};
 
-use crate::list::{keep_all, make_room};
+use crate::buffer::{grow, keep_all};
 use crate::members::Members;
 use crate::separation::{distance2_at, places};
-use crate::{CHUNK, CellGrid, Domain};
+use crate::{CellGrid, Domain};
+
+/// Particles that one task works through; also the granule of the lists.
+pub const CHUNK: usize = 64;
 
 /// A cluster ends where its box would be longer than this many reaches: at the ends of rows of cells, in splashes.
 const LONGEST: f64 = 1.5;
@@ -44,6 +47,30 @@ impl Clusters {
     /// The candidates stand in the grid's cell order, which is index order where the points are sorted.
     pub fn build<const D: usize>(
         &mut self,
+        points: [&[Vect<D>]; 2],
+        grid: &CellGrid<D>,
+        within: (f64, &Domain<D>),
+        pool: &Pool<TaskScratch>,
+        idle: Option<&[bool]>,
+    ) {
+        self.build_of(width().lanes(), points, grid, within, pool, idle);
+    }
+
+    /// The same with a list for each target alone.
+    pub fn build_each<const D: usize>(
+        &mut self,
+        points: [&[Vect<D>]; 2],
+        grid: &CellGrid<D>,
+        within: (f64, &Domain<D>),
+        pool: &Pool<TaskScratch>,
+    ) {
+        self.build_of(1, points, grid, within, pool, None);
+    }
+
+    /// Lists of clusters of at most `most` targets.
+    fn build_of<const D: usize>(
+        &mut self,
+        most: usize,
         [targets, points]: [&[Vect<D>]; 2],
         grid: &CellGrid<D>,
         (reach, domain): (f64, &Domain<D>),
@@ -53,34 +80,50 @@ impl Clusters {
         self.resize(targets.len());
         let width = width();
         let blocks = self.blocks.par_iter_mut().enumerate();
-        let room = || pool.acquire();
-        blocks.for_each_init(room, |room, (b, block)| {
-            let (buffer, ranges) = &mut **room;
-            let from = b * CHUNK;
-            let to = (from + CHUNK).min(targets.len());
-            block.part(&targets[from..to], width.lanes(), LONGEST * reach);
-            let mut used = 0;
-            for c in 0..block.clusters() {
-                let [first, count] = block.span(c, from);
-                if idle.is_some_and(|idle| idle[first..first + count].iter().all(|idle| *idle)) {
+        blocks.for_each_init(
+            || pool.acquire(),
+            |room, (b, block)| {
+                let (slots, ranges) = &mut **room;
+                let from = b * CHUNK;
+                let to = (from + CHUNK).min(targets.len());
+                block.part(&targets[from..to], most, LONGEST * reach);
+                let (mut used, mut last_cell) = (0, None);
+                for c in 0..block.clusters() {
+                    let [first, count] = block.span(c, from);
+                    let members = first..first + count;
+                    if !idle.is_some_and(|idle| idle[members.clone()].iter().all(|idle| *idle)) {
+                        let own = &targets[members];
+                        // Points of one cell share their ranges.
+                        let cell = (count == 1).then(|| grid.cell_of(&own[0]));
+                        if cell.is_none() || cell != last_cell {
+                            grid.ranges_into(own, reach, ranges);
+                            last_cell = cell;
+                        }
+                        let search = CandidateSearch {
+                            own,
+                            points,
+                            grid,
+                            reach,
+                            domain,
+                            from: used,
+                            slots,
+                            ranges,
+                        };
+                        used = dispatch_at(width, search);
+                    }
                     block.starts.push(used as u32);
-                    continue;
                 }
-                let near = CandidateSearch {
-                    own: &targets[first..first + count],
-                    points,
-                    grid,
-                    reach,
-                    domain,
-                    from: used,
-                    slots: buffer,
-                    ranges,
-                };
-                used = dispatch_at(width, near);
-                block.starts.push(used as u32);
-            }
-            keep_all(&mut block.candidates, &buffer[..used]);
-        });
+                keep_all(&mut block.candidates, &slots[..used]);
+            },
+        );
+    }
+
+    /// Counts the points from another first one.
+    pub(crate) fn shift(&mut self, first: u32) {
+        if first > 0 {
+            let all = self.blocks.par_iter_mut();
+            all.for_each(|block| block.candidates.iter_mut().for_each(|c| *c += first));
+        }
     }
 
     /// For as many particles, with buffers that are kept.
@@ -154,13 +197,6 @@ impl Clusters {
     pub fn entries(&self) -> usize {
         self.blocks.iter().map(|b| b.candidates.len()).sum()
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        let words = |b: &Block| 4 * (b.candidates.capacity() + b.starts.capacity());
-        let small = |b: &Block| b.first.capacity() + b.of.capacity();
-        self.blocks.iter().map(|b| words(b) + small(b)).sum()
-    }
 }
 
 impl Block {
@@ -227,7 +263,7 @@ struct CandidateSearch<'a, const D: usize> {
     /// Slots that are filled already.
     from: usize,
     slots: &'a mut Vec<u32>,
-    ranges: &'a mut Vec<Range<usize>>,
+    ranges: &'a [Range<usize>],
 }
 
 impl<const D: usize> Body for CandidateSearch<'_, D> {
@@ -236,17 +272,9 @@ impl<const D: usize> Body for CandidateSearch<'_, D> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> usize {
-        let own = self.own;
-        let (mut low, mut high) = (own[0], own[0]);
-        for x in own {
-            (low, high) = (low.inf(x), high.sup(x));
-        }
-        let ranges = self.ranges;
-        ranges.clear();
-        self.grid
-            .ranges_around([&low, &high], self.reach, |range| ranges.push(range));
+        let CandidateSearch { own, ranges, .. } = self;
         let room = self.from + ranges.iter().map(Range::len).sum::<usize>();
-        make_room(self.slots, room);
+        grow(self.slots, room);
         let slots = &mut self.slots[self.from..room];
         let limit = self.reach * self.reach;
         let crosses = own
@@ -254,7 +282,7 @@ impl<const D: usize> Body for CandidateSearch<'_, D> {
             .any(|x| self.domain.near_periodic_face(x, self.reach));
         let mut n = 0;
         if crosses || !self.grid.is_sorted() || own.len() > L::N {
-            for range in ranges.iter() {
+            for range in ranges {
                 for &j in &self.grid.order()[range.clone()] {
                     let near = |x: &Vect<D>| {
                         let apart = self.domain.nearest_image(x - self.points[j as usize]);
@@ -268,7 +296,7 @@ impl<const D: usize> Body for CandidateSearch<'_, D> {
         }
         let x = places::<D, L>(own);
         let limit = L::splat(limit);
-        for range in ranges.iter() {
+        for range in ranges {
             for j in range.clone() {
                 slots[n] = j as u32;
                 n += usize::from(distance2_at(&x, &self.points[j]).any_less(limit));

@@ -252,6 +252,21 @@ impl<const D: usize> CellGrid<D> {
         }
     }
 
+    /// Leaves such ranges for all points of the box around some points.
+    pub(crate) fn ranges_into(
+        &self,
+        points: &[Vect<D>],
+        radius: f64,
+        ranges: &mut Vec<std::ops::Range<usize>>,
+    ) {
+        let mut corners = [points[0]; 2];
+        for x in points {
+            corners = [corners[0].inf(x), corners[1].sup(x)];
+        }
+        ranges.clear();
+        self.ranges_around(corners.each_ref(), radius, |range| ranges.push(range));
+    }
+
     /// Half-open spans of cells along an axis, at most two where a period is crossed.
     fn span(&self, corners: [&Vect<D>; 2], radius: f64, axis: usize) -> [(usize, usize); 2] {
         let n = self.counts[axis];

@@ -4,17 +4,17 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
 use crate::blocks::each_block;
+use crate::buffer::grow;
 use crate::kernel_values::SumScratch;
 use crate::lane_pair::LanePair;
 use crate::lane_vector::minus;
-use crate::list::{CHUNK, make_room};
 use crate::members::{Members, groups};
 use crate::pair_sum::PairSum;
-use crate::particles::{Particles, Rows, make_room as room_for};
+use crate::particles::{Particles, Rows};
 use crate::scaling::Scaling;
 use crate::separation::Distances;
 use crate::walk::wrapping;
-use crate::{Clusters, Domain, HiddenPairs, WallPoints, World};
+use crate::{CHUNK, Clusters, Domain, HiddenPairs, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///
@@ -80,7 +80,7 @@ pub fn kernel_sums<const D: usize>(
             *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value);
             if points.in_density() {
                 let i = all.from + k;
-                let row = world.lists.wall.row(i);
+                let row = world.lists.wall.candidates(i);
                 if !row.is_empty() {
                     let x = &positions[i];
                     let w = room.row.fill(x, &points.position, row, domain(i), kernel);
@@ -179,7 +179,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                 };
                 let n = members.candidates.len();
                 values.reserve(n * width.lanes());
-                make_room(inside, n);
+                grow(inside, n);
                 let body = DistancesAround {
                     around: &around,
                     members,
@@ -193,7 +193,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);
-                room_for(rows, S::Sum::<f64>::NUMBERS);
+                grow(rows, S::Sum::<f64>::NUMBERS);
                 let body = SumAround {
                     around: &around,
                     members,

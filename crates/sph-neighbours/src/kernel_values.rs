@@ -4,6 +4,7 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 
 use crate::Domain;
+use crate::buffer::grow;
 
 /// Squared distances and kernel values.
 #[derive(Default)]
@@ -14,10 +15,8 @@ pub(crate) struct Values {
 
 impl Values {
     pub fn reserve(&mut self, n: usize) {
-        if self.value.len() < n {
-            self.distance2.resize(n.next_power_of_two(), 0.0);
-            self.value.resize(n.next_power_of_two(), 0.0);
-        }
+        grow(&mut self.distance2, n);
+        grow(&mut self.value, n);
     }
 
     pub fn fill<const D: usize>(

@@ -1,7 +1,7 @@
 //! Neighbour lists, and the one walk over the pairs that serves every term.
 //!
-//! * [`CellGrid`] sorts points by cell; [`NeighbourList`] keeps, per particle, the candidates
-//!   within the support plus a skin, and stays valid until a particle moved half the skin.
+//! * [`CellGrid`] sorts points by cell; [`Clusters`] keep, for a few particles or for each, the candidates
+//!   within the support plus a skin, and stay valid until a particle moved half the skin.
 //! * [`World`] is the input of a stage: the columns of the free particles, the wall points and
 //!   elements, the lists, the kernel.
 //! * A [`PairTerm`] sums over pairs ([`PairSum`]), its formula written once for lanes; [`Interaction`] is the object-safe
@@ -14,6 +14,7 @@
 //! bits for any number of threads.
 
 mod blocks;
+mod buffer;
 mod cluster;
 mod cluster_walk;
 mod clusters;
@@ -38,7 +39,6 @@ mod lane_pair;
 mod lane_vector;
 mod lattice;
 mod lightness;
-mod list;
 mod members;
 mod nearby;
 mod owned;
@@ -65,7 +65,7 @@ mod world;
 pub use blocks::{by_phase, each_block, joined};
 pub use cluster::Cluster;
 pub use cluster_walk::{ClusterWalk, PairNumbers, walk_in_lanes};
-pub use clusters::Clusters;
+pub use clusters::{CHUNK, Clusters};
 pub use contact_block::{Contact, ContactBlock, ContactIter, ContactRow};
 pub use contacts::Contacts;
 pub use couplings::{Couplings, CouplingsAt, Kinds, Visitor};
@@ -85,7 +85,6 @@ pub use lane_pair::{LanePair, Pair};
 pub use lane_vector::{minus, splat, unlike, vector};
 pub use lattice::{lattice_sum, rows_sum};
 pub use lightness::lightness;
-pub use list::{CHUNK, NeighbourList};
 pub use nearby::Nearby;
 pub use owned::{Owned, OwnedElements};
 pub use pair_sum::PairSum;

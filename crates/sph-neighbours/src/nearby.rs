@@ -76,7 +76,7 @@ impl<const D: usize> World<D> {
             });
             let wall = match self.walls.points.in_sums() {
                 false => &[][..],
-                true => self.lists.wall.row(i),
+                true => self.lists.wall.candidates(i),
             };
             let wall = wall.iter();
             let wall = wall.filter(|&&v| apart(x, &points[v as usize]) < support);

@@ -2,9 +2,10 @@
 
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
+use crate::buffer::grow;
 use crate::cluster::Cluster;
 use crate::lane_pair::LanePair;
-use crate::particles::{Particles, Rows, make_room};
+use crate::particles::{Particles, Rows};
 
 /// A sum over free neighbours: of several particles side by side, or of one.
 ///
@@ -47,7 +48,7 @@ pub(crate) fn sum_cluster<const D: usize, S: PairSum<D>>(
     cluster: &Cluster<'_, D>,
     rows: &mut Rows,
 ) {
-    make_room(rows, S::Sum::<f64>::NUMBERS);
+    grow(rows, S::Sum::<f64>::NUMBERS);
     dispatch_at(cluster.width, ClusterPairSum { sum, cluster, rows });
 }
 

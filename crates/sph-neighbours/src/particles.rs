@@ -92,10 +92,3 @@ impl From<Members<'_>> for Particles {
 
 /// Sums of a few particles, a row for each number.
 pub(crate) type Rows = Vec<[f64; MOST]>;
-
-/// Makes room for as many numbers.
-pub(crate) fn make_room(rows: &mut Rows, numbers: usize) {
-    if rows.len() < numbers {
-        rows.resize(numbers, [0.0; MOST]);
-    }
-}

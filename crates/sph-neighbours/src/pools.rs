@@ -6,7 +6,6 @@ use sph_core::{Pool, Vect};
 
 use crate::cluster::Buffers;
 use crate::kernel_values::{SumScratch, Values};
-use crate::list::CellRanges;
 use crate::{CellGrid, Rates, Rows, particles};
 
 /// Buffers of the tasks that walk over lists, and of those that build them.
@@ -24,8 +23,6 @@ pub(crate) struct Pools<const D: usize> {
     pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
     /// Candidates of clusters, with the ranges of cells.
     pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,
-    /// Candidates of single particles, with the places around a cell.
-    pub lists: Pool<(Vec<u32>, CellRanges)>,
     pub grids: Pool<CellGrid<D>>,
     pub centres: Pool<Vec<Vect<D>>>,
 }

@@ -45,7 +45,11 @@ pub fn reactions<const D: usize>(
     let (walls, lists) = (&world.walls, &world.lists.wall);
     let sees = |i: usize| {
         let mut elements = walls.contacts.of_particle(i).elements().iter();
-        let points = if lists.is_empty() { &[] } else { lists.row(i) };
+        let points = if lists.is_empty() {
+            &[]
+        } else {
+            lists.candidates(i)
+        };
         let mut slopes = walls.slopes.of_particle(i).iter();
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
@@ -78,7 +82,7 @@ fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallP
     let mut of_elements = elements.filter(|s| walls.elements.wall[**s as usize] == part.wall);
     let of_points = match world.lists.wall.is_empty() {
         true => &[],
-        false => world.lists.wall.row(i),
+        false => world.lists.wall.candidates(i),
     };
     let mut of_points = (of_points.iter()).filter(|v| walls.points.wall[**v as usize] == part.wall);
     let seen = of_elements

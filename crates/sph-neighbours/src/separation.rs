@@ -4,6 +4,7 @@ use sph_core::Vect;
 use sph_kernels::lanes::{Body, Lane, dot};
 
 use crate::Domain;
+use crate::buffer::grow;
 use crate::lane_vector::minus;
 use crate::members::Members;
 use crate::particles::Particles;
@@ -68,12 +69,5 @@ impl<const D: usize, const KEPT: bool> Body for Distances<'_, D, KEPT> {
                 out[lane] = f64::INFINITY;
             }
         }
-    }
-}
-
-/// Makes room for as many numbers.
-pub(crate) fn grow(buffer: &mut Vec<f64>, needed: usize) {
-    if buffer.len() < needed {
-        buffer.resize(needed.next_power_of_two(), 0.0);
     }
 }

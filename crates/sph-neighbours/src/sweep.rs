@@ -10,11 +10,10 @@ use sph_kernels::lanes::{MOST, Width, width};
 
 use crate::cluster::{Buffers, Cluster};
 use crate::half::is_wanted;
-use crate::list::CHUNK;
 use crate::members::{Members, groups};
 use crate::term::{Interaction, RowTerm, WithTerm};
 use crate::walk::Surroundings;
-use crate::{Neighbourhood, Rates, TRANSPORTED, World};
+use crate::{CHUNK, Neighbourhood, Rates, TRANSPORTED, World};
 
 /// Sums all terms of all particles.
 ///

@@ -62,7 +62,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         row.clear();
         let points = &self.world.walls.points;
         let candidates = match points.in_sums() {
-            true => self.world.lists.wall.row(particle),
+            true => self.world.lists.wall.candidates(particle),
             false => &[],
         };
         if candidates.is_empty() {

@@ -50,7 +50,7 @@ pub fn wall_parts<const D: usize>(
     match world.walls.points.in_sums() && !world.lists.wall.is_empty() {
         true => (0..sweep.particles())
             .filter(|i| {
-                !contacts.of_particle(*i).is_empty() || !world.lists.wall.row(*i).is_empty()
+                !contacts.of_particle(*i).is_empty() || !world.lists.wall.candidates(*i).is_empty()
             })
             .for_each(&mut ask),
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),

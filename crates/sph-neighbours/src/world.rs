@@ -8,9 +8,7 @@ use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
 use crate::pools::Pools;
-use crate::{
-    CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints, WallSet,
-};
+use crate::{CellGrid, Clusters, Domain, Extent, Hidden, SweepHalf, WallPoints, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.
 #[derive(Default)]
@@ -23,7 +21,7 @@ pub struct Lists<const D: usize> {
     pub(crate) spare: Clusters,
     pub(crate) pools: Pools<D>,
     /// Wall points around free particles.
-    pub wall: NeighbourList,
+    pub wall: Clusters,
     /// Free particles around the wall points that are in sums.
     pub of_points: Clusters,
     /// Free particles around element centres; around the corners of elements where walls find the state there and these
@@ -221,7 +219,7 @@ impl<const D: usize> World<D> {
         lists.spare = Clusters::default();
         lists.of_points = Clusters::default();
         lists.of_elements = Clusters::default();
-        lists.wall = NeighbourList::default();
+        lists.wall = Clusters::default();
         lists.pools = Pools::default();
     }
 
@@ -263,7 +261,7 @@ impl<const D: usize> World<D> {
             let mut wall_grid = pools.grids.acquire();
             wall_grid.renew(None, summed, reach, domain);
             let wall = &mut lists.wall;
-            wall.build_on(&pools.lists, [positions, summed], &wall_grid, within);
+            wall.build_each([positions, summed], &wall_grid, within, pool);
             wall.shift(first as u32);
             let list = &mut lists.of_points;
             list.build([summed, positions], &grid, within, pool, None);

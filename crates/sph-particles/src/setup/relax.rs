@@ -192,7 +192,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
             scale.map_or(1.0, |s| own * s[j as usize])
         });
         if points.in_sums() {
-            let candidates = world.lists.wall.row(i);
+            let candidates = world.lists.wall.candidates(i);
             row.fill(x, &points.position, candidates, NOBODY, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);
         }
