@@ -44,19 +44,14 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         self.particles().div_ceil(CHUNK)
     }
 
-    /// Calls `visit` with the clusters of a block in the order of their particles.
-    pub fn for_each_cluster(&self, block: usize, mut visit: impl FnMut(&mut Cluster<'_, D>)) {
-        self.each_wanted(block, &mut visit, |_| true, |visit, c| visit(c), |_, _| ());
-    }
-
-    /// The same with the scratch memory at hand; where no member is `wanted` no neighbours are searched, and `others`
-    /// gets the members.
+    /// Calls `visit` with the clusters of a block in the order of their particles, and the scratch memory at `hand`;
+    /// where no member is `wanted` no neighbours are searched, and `others` gets the members.
     pub fn each_wanted<S>(
         &self,
         block: usize,
         hand: &mut S,
         wanted: impl Fn(usize) -> bool,
-        visit: impl Fn(&mut S, &mut Cluster<'_, D>),
+        mut visit: impl FnMut(&mut S, &mut Cluster<'_, D>),
         others: impl Fn(&mut S, Range<usize>),
     ) {
         let mut room = self.pool.acquire();
@@ -116,16 +111,12 @@ impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body
 
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let ClusterInLanes {
-            pairs,
-            cluster,
-            out,
-        } = self;
-        let members = cluster.members;
-        let own = pairs.own::<L>(members.into());
+        let members = self.cluster.members;
+        let own = self.pairs.own::<L>(members.into());
         let all = members.candidates.iter().enumerate();
-        for ((k, &j), out) in all.zip(out.chunks_exact_mut(M * L::N)) {
-            let numbers = pairs.numbers(&own, j as usize, &cluster.pair(k));
+        for ((k, &j), out) in all.zip(self.out.chunks_exact_mut(M * L::N)) {
+            let pair = self.cluster.pair(k);
+            let numbers = self.pairs.numbers(&own, j as usize, &pair);
             for (number, out) in numbers.into_iter().zip(out.chunks_exact_mut(L::N)) {
                 number.store(out);
             }

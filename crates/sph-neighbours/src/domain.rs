@@ -101,6 +101,12 @@ impl<const D: usize> Domain<D> {
         })
     }
 
+    /// The domain, where images across periodic faces may be nearer to a place with this reach of its list.
+    pub(crate) fn wrapping(&self, x: &Vect<D>, reach: f64) -> Option<&Self> {
+        // The particle itself may have left the box by up to the skin since the last build.
+        self.near_periodic_face(x, 2.0 * reach).then_some(self)
+    }
+
     /// True if the position is inside along the axes that are not periodic.
     pub fn contains(&self, x: &Vect<D>) -> bool {
         (0..D).all(|a| self.periodic[a] || (x[a] >= self.lower[a] && x[a] <= self.upper[a]))

@@ -32,7 +32,7 @@ const INTERVALS: usize = 64;
 ///
 /// # Errors
 /// If the ranks cannot add.
-pub fn facing_forces<const D: usize>(
+pub(crate) fn facing_forces<const D: usize>(
     world: &World<D>,
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {

@@ -11,10 +11,8 @@ const CELLS_PER_RADIUS: usize = 2;
 /// others, all of them number their cells alike when they take the extent of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent<const D: usize> {
-    /// Least coordinates, m.
-    pub lower: Vect<D>,
-    /// Largest coordinates, m.
-    pub upper: Vect<D>,
+    /// Least and largest coordinates, m.
+    pub corners: [Vect<D>; 2],
     /// Number of points.
     pub points: usize,
 }
@@ -24,12 +22,8 @@ impl<const D: usize> Extent<D> {
     pub fn around(positions: &[Vect<D>]) -> Self {
         let mut finite = positions.iter().filter(|x| x.iter().all(|c| c.is_finite()));
         let first = finite.next().copied().unwrap_or_else(Vect::zeros);
-        let (lower, upper) = finite.fold((first, first), |(lower, upper), x| {
-            (lower.inf(x), upper.sup(x))
-        });
         Extent {
-            lower,
-            upper,
+            corners: finite.fold([first; 2], |[lower, upper], x| [lower.inf(x), upper.sup(x)]),
             points: positions.len(),
         }
     }
@@ -98,7 +92,7 @@ impl<const D: usize> CellGrid<D> {
         self.cells(among.unwrap_or(&own), radius, domain);
         if among.is_some() {
             for axis in (0..D).filter(|a| !domain.periodic[*a]) {
-                let [low, high] = [own.lower, own.upper].map(|x| self.coordinate(&x, axis));
+                let [low, high] = own.corners.map(|x| self.coordinate(&x, axis));
                 (self.first[axis], self.counts[axis]) = (low, high + 1 - low);
             }
         }
@@ -107,7 +101,7 @@ impl<const D: usize> CellGrid<D> {
 
     /// All cells of an extent, empty.
     fn cells(&mut self, extent: &Extent<D>, radius: f64, domain: &Domain<D>) {
-        let (mut lower, mut upper) = (extent.lower, extent.upper);
+        let [mut lower, mut upper] = extent.corners;
         for axis in 0..D {
             if domain.periodic[axis] {
                 lower[axis] = domain.lower[axis];

@@ -67,18 +67,18 @@ impl Couplings {
                 kept.groups.clear();
                 kept.columns.clear();
                 kept.numbers.clear();
-                walk.for_each_cluster(block, |members| {
-                    let own = members.members();
-                    let first = own.start - block * CHUNK;
-                    let own = first..first + own.len();
+                let mut writer = CouplingWriter {
+                    kept,
+                    kinds,
+                    numbers,
+                };
+                let visit = |writer: &mut CouplingWriter<'_>, members: &mut Cluster<'_, D>| {
+                    let first = members.members().start - block * CHUNK;
+                    let own = first..first + members.members().len();
                     let rows = (&mut a[own.clone()], &mut b[own.clone()], &mut c[own]);
-                    let mut keeper = CouplingWriter {
-                        kept: &mut *kept,
-                        kinds,
-                        numbers: &mut *numbers,
-                    };
-                    cluster(members, &mut keeper, rows);
-                });
+                    cluster(members, writer, rows);
+                };
+                walk.each_wanted(block, &mut writer, |_| true, visit, |_, _| ());
             });
         Ok(())
     }

@@ -13,7 +13,6 @@ use crate::pair_sum::PairSum;
 use crate::particles::{Particles, Rows};
 use crate::scaling::Scaling;
 use crate::separation::Distances;
-use crate::walk::wrapping;
 use crate::{CHUNK, Clusters, Domain, HiddenPairs, WallPoints, World};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
@@ -37,7 +36,7 @@ pub fn kernel_sums<const D: usize>(
     let limit = kernel.support_radius().powi(2);
     let width = width();
     let cluster = |room: &mut SumScratch, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
-        let domain = |i: usize| wrapping(&world.domain, &positions[i], world.reach());
+        let domain = |i: usize| world.domain.wrapping(&positions[i], world.reach());
         let mut inside = std::mem::take(&mut room.inside);
         inside.clear();
         inside.resize(all.candidates.len(), false);
@@ -175,7 +174,7 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                 let around = TargetPoints {
                     targets,
                     positions,
-                    domain: near.find_map(|x| wrapping(&world.domain, x, world.reach())),
+                    domain: near.find_map(|x| world.domain.wrapping(x, world.reach())),
                 };
                 let n = members.candidates.len();
                 values.reserve(n * width.lanes());

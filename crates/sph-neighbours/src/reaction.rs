@@ -11,7 +11,7 @@ use crate::{Interaction, WallForce, WallPart, World, wall_parts};
 ///
 /// The walls' part of an acceleration is the whole less the contribution of the other particles with γ = 1, which is
 /// equal and opposite between two particles and leaves no momentum; [`wall_parts`] gives the part of each wall.
-/// [`facing_forces`] are added.
+/// `facing_forces` are added.
 ///
 /// # Errors
 /// If a term misses a column.
@@ -20,10 +20,7 @@ pub fn wall_forces<const D: usize>(
     terms: &[&dyn Interaction<D>],
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
-    let mut forces = reactions(world, terms, wanted)?;
-    let facing = facing_forces(world, wanted)?;
-    let both = forces.iter_mut().zip(&facing);
-    both.for_each(|(f, more)| f.add(more));
+    let mut forces = loads(world, terms, wanted)?;
     for (wall, total) in forces.iter_mut().enumerate().filter(|(w, _)| wanted[*w]) {
         let pressure = WallForce::from_sums(pressure_on(world, wall as u32)?);
         (total.pressure_force, total.pressure_moment) = (pressure.force, pressure.moment);
@@ -31,8 +28,23 @@ pub fn wall_forces<const D: usize>(
     Ok(forces)
 }
 
-/// The same without [`facing_forces`], and without the integrals of the pressure, which no single rank has on all
-/// elements; they are 0 here.
+/// The same without the integrals of the pressure, which no single rank has on all elements; they are 0 here.
+///
+/// # Errors
+/// If a term misses a column.
+pub fn loads<const D: usize>(
+    world: &World<D>,
+    terms: &[&dyn Interaction<D>],
+    wanted: &[bool],
+) -> Result<Vec<WallForce<D>>, StepError> {
+    let mut forces = reactions(world, terms, wanted)?;
+    let facing = facing_forces(world, wanted)?;
+    let both = forces.iter_mut().zip(&facing);
+    both.for_each(|(f, more)| f.add(more));
+    Ok(forces)
+}
+
+/// [`loads`] without `facing_forces`.
 ///
 /// # Errors
 /// If a term misses a column.

@@ -142,10 +142,25 @@ where
     K: Sampler + ?Sized,
     T: RowTerm<D> + ?Sized,
 {
-    let sweep = Sweep::new(world, kernel)?;
     let start = Rates::from_acceleration(world.gravity + world.driving);
     let half = world.lists.sweep_half.as_ref();
-    let wanted = |i: usize| is_wanted(half, i);
+    sums_from(world, kernel, term, start, |i| is_wanted(half, i), sums)
+}
+
+/// The sums of the particles that are `wanted`, from those that each starts with.
+fn sums_from<const D: usize, K, T>(
+    world: &World<D>,
+    kernel: &K,
+    term: &T,
+    start: Rates<D>,
+    wanted: impl Fn(usize) -> bool + Sync,
+    sums: Sums<'_, D>,
+) -> Result<(), StepError>
+where
+    K: Sampler + ?Sized,
+    T: RowTerm<D> + ?Sized,
+{
+    let sweep = Sweep::new(world, kernel)?;
     let Sums {
         acceleration,
         scalar,
@@ -160,7 +175,7 @@ where
     let room = || world.lists.pools.sweeps.acquire();
     all.enumerate()
         .for_each_init(room, |room, (block, ((a, mut s), mut m))| {
-            let rates = sweep.block(term, wanted, room, block, (a.len(), start));
+            let rates = sweep.block(term, &wanted, room, block, (a.len(), start));
             let rates = rates.iter().enumerate();
             for (k, rates) in rates.filter(|(k, _)| wanted(block * CHUNK + k)) {
                 a[k] = rates.acceleration;
@@ -196,23 +211,16 @@ pub fn accelerations_of<const D: usize>(
     wanted: impl Fn(usize) -> bool + Sync,
     acceleration: &mut [Vect<D>],
 ) -> Result<(), StepError> {
-    let sweep = Sweep::new(world, &*world.kernel)?;
+    let blocks = acceleration.par_chunks_mut(CHUNK);
+    blocks.for_each(|block| block.fill(Vect::zeros()));
     let start = Rates::from_acceleration(Vect::zeros());
     term.with_columns(world, &mut |bound| {
-        let all = acceleration.par_chunks_mut(CHUNK).enumerate();
-        all.for_each_init(
-            || world.lists.pools.sweeps.acquire(),
-            |room, (c, a)| {
-                let rates = sweep.block(bound, &wanted, room, c, (a.len(), start));
-                for (k, (a, rates)) in a.iter_mut().zip(rates.iter()).enumerate() {
-                    *a = match wanted(c * CHUNK + k) {
-                        true => rates.acceleration,
-                        false => Vect::zeros(),
-                    };
-                }
-            },
-        );
-        Ok(())
+        let sums = Sums {
+            acceleration: &mut *acceleration,
+            scalar: None,
+            more: &mut [],
+        };
+        sums_from(world, &*world.kernel, bound, start, &wanted, sums)
     })
 }
 

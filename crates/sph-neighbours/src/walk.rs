@@ -44,11 +44,10 @@ impl<'w, const D: usize> Surroundings<'w, D> {
 
     /// The domain, where images across periodic faces may be nearer to a particle.
     pub(crate) fn wrapping(&self, particle: usize) -> Option<&'w Domain<D>> {
-        wrapping(
-            &self.world.domain,
-            &self.position[particle],
-            self.world.reach(),
-        )
+        let world = self.world;
+        world
+            .domain
+            .wrapping(&self.position[particle], world.reach())
     }
 
     /// Fills the row of wall points around a particle; true if there may be any.
@@ -97,16 +96,6 @@ impl<'w, const D: usize> Surroundings<'w, D> {
             scaling: self.scaling.as_ref(),
         }
     }
-}
-
-/// The domain, where images across periodic faces may be nearer to a place.
-pub(crate) fn wrapping<'a, const D: usize>(
-    domain: &'a Domain<D>,
-    x: &Vect<D>,
-    reach: f64,
-) -> Option<&'a Domain<D>> {
-    // The particle itself may have left the box by up to the skin since the last build.
-    domain.near_periodic_face(x, 2.0 * reach).then_some(domain)
 }
 
 /// The neighbourhood of one particle, and kernel values where they were requested.

@@ -9,7 +9,7 @@ use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Role, Store, Vect, fields};
 
-use crate::decomposition::ghosts::{Needs, RankBox};
+use crate::decomposition::ghosts::{Needs, RankBox, around, around_own};
 use crate::decomposition::link::{Link, OWNER, Partner, Partners};
 use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
@@ -68,10 +68,7 @@ impl<const D: usize> Parts<D> {
         world.free.add(OWNER, Role::State);
         world.free.set_index(OWNER.name, &owners)?;
         world.extent = Some(Extent::around(&reference));
-        let around = |r: usize| {
-            let own = reference.iter().zip(&owners);
-            RankBox::around(own.filter(|(_, o)| **o as usize == r).map(|(x, _)| x))
-        };
+        let around = |rank: usize| around_own(&reference, &owners, rank);
         let around: Vec<RankBox<D>> = (0..ranks).map(around).collect();
         let needs = Needs::new(world, rings);
         let here =
@@ -292,16 +289,13 @@ impl<const D: usize> Parts<D> {
 
     /// Boxes around the particles of each rank.
     fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
-        let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
-        let numbers = own.lower.iter().chain(own.upper.iter());
+        let own = around(world.free.get(fields::POSITION)?.iter());
+        let numbers = own.iter().flat_map(|corner| corner.iter());
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
         let read = |message: Vec<u8>| {
             let numbers = message.as_chunks::<8>().0;
             let at = |k: usize| numbers.get(k).map_or(f64::NAN, |b| f64::from_le_bytes(*b));
-            RankBox {
-                lower: Vect::from_fn(|k, _| at(k)),
-                upper: Vect::from_fn(|k, _| at(D + k)),
-            }
+            [0, D].map(|from| Vect::from_fn(|k, _| at(from + k)))
         };
         let all = self.link.transport.all(&bytes)?;
         Ok(all.into_iter().map(read).collect())
@@ -309,15 +303,16 @@ impl<const D: usize> Parts<D> {
 
     /// The extent of the particles of all ranks; `own` are those of this one.
     fn extent(&self, own: &[Vect<D>]) -> Result<Extent<D>, PartError> {
-        let around = RankBox::around(own.iter());
-        let lower = around.lower.iter().map(|x| -x);
-        let mut corners: Vec<f64> = lower.chain(around.upper.iter().copied()).collect();
+        let [lower, upper] = around(own.iter());
+        let mut corners: Vec<f64> = (-lower).iter().chain(&upper).copied().collect();
         self.link.transport.largest(&mut corners)?;
         let mut points = [own.len() as u64];
         self.link.transport.total(&mut points)?;
         Ok(Extent {
-            lower: Vect::from_fn(|k, _| -corners[k]),
-            upper: Vect::from_fn(|k, _| corners[D + k]),
+            corners: [
+                Vect::from_fn(|k, _| -corners[k]),
+                Vect::from_fn(|k, _| corners[D + k]),
+            ],
             points: points[0] as usize,
         })
     }
