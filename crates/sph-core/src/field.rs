@@ -34,43 +34,104 @@ pub enum Column<const D: usize> {
     SymmetricTensor(Vec<Symmetric>),
 }
 
+/// The same work on the entries of a column of any type.
+macro_rules! each_type {
+    ($column:expr, $items:ident => $work:expr) => {
+        match $column {
+            $crate::field::Column::Scalar($items) => $work,
+            $crate::field::Column::Vector($items) => $work,
+            $crate::field::Column::Index($items) => $work,
+            $crate::field::Column::Tensor($items) => $work,
+            $crate::field::Column::SymmetricTensor($items) => $work,
+        }
+    };
+}
+pub(crate) use each_type;
+
+/// One entry of a column.
+pub(crate) trait Item: Copy {
+    fn zero() -> Self;
+    /// Writes it behind other bytes.
+    fn pack(&self, to: &mut Vec<u8>);
+    /// Takes it off a message; zero behind the end.
+    fn unpack(from: &mut &[u8]) -> Self;
+}
+
+macro_rules! number {
+    ($number:ty) => {
+        impl Item for $number {
+            fn zero() -> Self {
+                Default::default()
+            }
+            fn pack(&self, to: &mut Vec<u8>) {
+                to.extend_from_slice(&self.to_le_bytes());
+            }
+            fn unpack(from: &mut &[u8]) -> Self {
+                let bytes = from.split_off(..size_of::<Self>()).unwrap_or_default();
+                Self::from_le_bytes(bytes.try_into().unwrap_or_default())
+            }
+        }
+    };
+}
+number!(f64);
+number!(u32);
+
+impl<const R: usize, const C: usize> Item for SMatrix<f64, R, C> {
+    fn zero() -> Self {
+        SMatrix::zeros()
+    }
+    fn pack(&self, to: &mut Vec<u8>) {
+        self.iter().for_each(|x| x.pack(to));
+    }
+    fn unpack(from: &mut &[u8]) -> Self {
+        SMatrix::from_fn(|_, _| f64::unpack(from))
+    }
+}
+
+impl Item for Symmetric {
+    fn zero() -> Self {
+        Symmetric::ZERO
+    }
+    fn pack(&self, to: &mut Vec<u8>) {
+        self.0.iter().for_each(|x| x.pack(to));
+    }
+    fn unpack(from: &mut &[u8]) -> Self {
+        Symmetric(std::array::from_fn(|_| f64::unpack(from)))
+    }
+}
+
 impl<const D: usize> Column<D> {
     /// Number of entries, and bytes of each.
     pub(crate) fn size(&self) -> [usize; 2] {
         fn size<T>(items: &[T]) -> [usize; 2] {
             [items.len(), size_of::<T>()]
         }
-        match self {
-            Column::Scalar(items) => size(items),
-            Column::Vector(items) => size(items),
-            Column::Index(items) => size(items),
-            Column::Tensor(items) => size(items),
-            Column::SymmetricTensor(items) => size(items),
-        }
-    }
-
-    /// The entries of these slots, in this order.
-    pub(crate) fn picked(&self, slots: &[u32]) -> Self {
-        fn pick<T: Copy>(items: &[T], slots: &[u32]) -> Vec<T> {
-            slots.iter().map(|s| items[*s as usize]).collect()
-        }
-        match self {
-            Column::Scalar(items) => Column::Scalar(pick(items, slots)),
-            Column::Vector(items) => Column::Vector(pick(items, slots)),
-            Column::Index(items) => Column::Index(pick(items, slots)),
-            Column::Tensor(items) => Column::Tensor(pick(items, slots)),
-            Column::SymmetricTensor(items) => Column::SymmetricTensor(pick(items, slots)),
-        }
+        each_type!(self, items => size(items))
     }
 
     /// Cuts or lengthens it; new entries are zeros.
     pub(crate) fn resize(&mut self, n: usize) {
-        match self {
-            Column::Scalar(items) => items.resize(n, 0.0),
-            Column::Vector(items) => items.resize(n, Vect::zeros()),
-            Column::Index(items) => items.resize(n, 0),
-            Column::Tensor(items) => items.resize(n, SMatrix::zeros()),
-            Column::SymmetricTensor(items) => items.resize(n, Symmetric::ZERO),
+        each_type!(self, items => items.resize(n, Item::zero()));
+    }
+
+    /// Overwrites it with the entries of another column of its type, or with those in some places of the other; false
+    /// if the other has another type.
+    pub(crate) fn copy(&mut self, from: &Self, places: Option<&[u32]>) -> bool {
+        fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) -> bool {
+            to.clear();
+            match places {
+                None => to.extend_from_slice(from),
+                Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
+            }
+            true
+        }
+        match (self, from) {
+            (Column::Scalar(to), Column::Scalar(from)) => put(to, from, places),
+            (Column::Vector(to), Column::Vector(from)) => put(to, from, places),
+            (Column::Index(to), Column::Index(from)) => put(to, from, places),
+            (Column::Tensor(to), Column::Tensor(from)) => put(to, from, places),
+            (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => put(to, from, places),
+            _ => false,
         }
     }
 }
@@ -79,14 +140,10 @@ impl<const D: usize> Column<D> {
 pub trait Kind: Copy + 'static {
     /// One entry of the column in D dimensions.
     type Item<const D: usize>: Copy + Send + Sync + std::fmt::Debug + 'static;
-    /// A column of `n` zero entries.
-    fn column<const D: usize>(n: usize) -> Column<D>;
     /// The entries, if the column has this type.
     fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>>;
     /// The entries, if the column has this type.
     fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<Self::Item<D>>>;
-    /// Real components per entry in D dimensions.
-    fn components(dimension: usize) -> usize;
     /// The type as a value.
     const SHAPE: Shape;
 }
@@ -110,22 +167,19 @@ impl Shape {
     /// A column of `n` zero entries.
     pub fn column<const D: usize>(self, n: usize) -> Column<D> {
         match self {
-            Shape::Scalar => Scalar::column(n),
-            Shape::Vector => Vector::column(n),
-            Shape::Index => Index::column(n),
-            Shape::Tensor => Tensor::column(n),
-            Shape::SymmetricTensor => SymmetricTensor::column(n),
+            Shape::Scalar => Column::Scalar(vec![Item::zero(); n]),
+            Shape::Vector => Column::Vector(vec![Item::zero(); n]),
+            Shape::Index => Column::Index(vec![Item::zero(); n]),
+            Shape::Tensor => Column::Tensor(vec![Item::zero(); n]),
+            Shape::SymmetricTensor => Column::SymmetricTensor(vec![Item::zero(); n]),
         }
     }
 }
 
 macro_rules! kind {
-    ($kind:ident, $item:ty, $zero:expr, $components:expr) => {
+    ($kind:ident, $item:ty) => {
         impl Kind for $kind {
             type Item<const D: usize> = $item;
-            fn column<const D: usize>(n: usize) -> Column<D> {
-                Column::$kind(vec![$zero; n])
-            }
             fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>> {
                 match column {
                     Column::$kind(items) => Some(items),
@@ -141,18 +195,14 @@ macro_rules! kind {
                 }
             }
             const SHAPE: Shape = Shape::$kind;
-            fn components(dimension: usize) -> usize {
-                let components: fn(usize) -> usize = $components;
-                components(dimension)
-            }
         }
     };
 }
-kind!(Scalar, f64, 0.0, |_| 1);
-kind!(Vector, Vect<D>, Vect::<D>::zeros(), |d| d);
-kind!(Index, u32, 0, |_| 1);
-kind!(Tensor, SMatrix<f64, D, D>, SMatrix::<f64, D, D>::zeros(), |d| d * d);
-kind!(SymmetricTensor, Symmetric, Symmetric::ZERO, |_| 6);
+kind!(Scalar, f64);
+kind!(Vector, Vect<D>);
+kind!(Index, u32);
+kind!(Tensor, SMatrix<f64, D, D>);
+kind!(SymmetricTensor, Symmetric);
 
 /// A typed name for a column: `Field<Scalar>`, `Field<Vector>` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,7 +233,6 @@ impl<K: Kind> Field<K> {
             name: self.name,
             unit: self.unit,
             meaning: self.meaning,
-            components: K::components,
             shape: K::SHAPE,
         }
     }
@@ -198,8 +247,6 @@ pub struct AnyField {
     pub unit: &'static str,
     /// One sentence.
     pub meaning: &'static str,
-    /// Real components per entry in the given dimension.
-    pub components: fn(usize) -> usize,
     /// Type of the column.
     pub shape: Shape,
 }

@@ -106,8 +106,7 @@ impl<E: Contract> Registry<E> {
             return Err(RegistryError::Duplicate {
                 kind: E::KIND.name,
                 name: info.name,
-                first: other.info().provider,
-                second: info.provider,
+                providers: [other, entry].map(|e| e.info().provider),
             });
         }
         self.entries.push(entry);
@@ -258,11 +257,7 @@ macro_rules! contract {
                 &self,
                 table: &$crate::reexport::toml::Table,
             ) -> Result<Box<dyn $tr<D>>, $crate::RegistryError> {
-                let absent = || $crate::RegistryError::Dimension {
-                    kind: $kind,
-                    name: self.info.name,
-                    dimension: D,
-                };
+                let absent = || $crate::RegistryError::Dimension($kind, self.info.name, D);
                 let built: Box<dyn std::any::Any> = match D {
                     2 => Box::new(self.build_2d.ok_or_else(absent)?(table)?),
                     3 => Box::new(self.build_3d.ok_or_else(absent)?(table)?),

@@ -12,30 +12,6 @@ pub struct Saved<const D: usize> {
     columns: Vec<(&'static str, Column<D>)>,
 }
 
-/// Overwrites a column with the entries of another of its type, or with those in some places of the other.
-fn copy<const D: usize>(
-    to: &mut Column<D>,
-    (name, from): (&'static str, &Column<D>),
-    places: Option<&[u32]>,
-) -> Result<(), FieldError> {
-    fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) {
-        to.clear();
-        match places {
-            None => to.extend_from_slice(from),
-            Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
-        }
-    }
-    match (to, from) {
-        (Column::Scalar(to), Column::Scalar(from)) => put(to, from, places),
-        (Column::Vector(to), Column::Vector(from)) => put(to, from, places),
-        (Column::Index(to), Column::Index(from)) => put(to, from, places),
-        (Column::Tensor(to), Column::Tensor(from)) => put(to, from, places),
-        (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => put(to, from, places),
-        _ => return Err(FieldError::Type(name)),
-    }
-    Ok(())
-}
-
 impl<const D: usize> Saved<D> {
     fn column(&self, name: &str) -> Option<&Column<D>> {
         let found = self.columns.iter().find(|(n, _)| *n == name);
@@ -62,7 +38,8 @@ impl<const D: usize> Store<D> {
             saved.columns = state().map(|e| (e.name, e.field.shape.column(0))).collect();
         }
         for (entry, (_, to)) in state().zip(&mut saved.columns) {
-            copy(to, (entry.name, &entry.column), None)?;
+            let same = to.copy(&entry.column, None);
+            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
         }
         saved.len = self.len;
         saved.taken.clone_from(&self.taken);
@@ -105,7 +82,8 @@ impl<const D: usize> Store<D> {
             if places.map_or(copied, <[u32]>::len) != len {
                 return Err(FieldError::Length(entry.name, copied, len));
             }
-            copy(&mut entry.column, (entry.name, from), places)?;
+            let same = entry.column.copy(from, places);
+            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Symmetric, Vect};
+use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Vect};
 
 /// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,15 @@ pub(crate) struct Entry<const D: usize> {
     pub column: Column<D>,
 }
 
+impl<const D: usize> Entry<D> {
+    /// The entries of these slots, in this order.
+    pub fn picked(&self, slots: &[u32]) -> Column<D> {
+        let mut picked = self.field.shape.column(0);
+        picked.copy(&self.column, Some(slots));
+        picked
+    }
+}
+
 /// The columns of one set of particles.
 #[derive(Default)]
 pub struct Store<const D: usize> {
@@ -33,17 +42,8 @@ pub struct Store<const D: usize> {
     /// Particles born.
     pub(crate) born: Inserted,
     pub(crate) watch: Watch,
-    pub(crate) spare: SortBuffers<D>,
-}
-
-/// A column of each kind to sort into: allocated when particles of such a column are first sorted.
-#[derive(Default)]
-pub(crate) struct SortBuffers<const D: usize> {
-    scalar: Vec<f64>,
-    vector: Vec<Vect<D>>,
-    index: Vec<u32>,
-    tensor: Vec<nalgebra::SMatrix<f64, D, D>>,
-    symmetric: Vec<Symmetric>,
+    /// A column of each type to sort into: allocated when particles of such a column are first sorted.
+    pub(crate) spare: Vec<Column<D>>,
 }
 
 /// Particles of one phase that one outlet has taken out of a store.
@@ -246,20 +246,14 @@ impl<const D: usize> Store<D> {
     }
 
     fn permute_role(&mut self, role: Role, order: &[u32]) {
-        fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32], spare: &mut Vec<T>) {
-            spare.clear();
-            spare.extend(order.iter().map(|&o| items[o as usize]));
-            std::mem::swap(items, spare);
-        }
-        let spare = &mut self.spare;
         for entry in self.entries.iter_mut().filter(|e| e.role == role) {
-            match &mut entry.column {
-                Column::Scalar(items) => gather(items, order, &mut spare.scalar),
-                Column::Vector(items) => gather(items, order, &mut spare.vector),
-                Column::Index(items) => gather(items, order, &mut spare.index),
-                Column::Tensor(items) => gather(items, order, &mut spare.tensor),
-                Column::SymmetricTensor(items) => gather(items, order, &mut spare.symmetric),
-            }
+            let spare = &mut self.spare;
+            let place = (0..spare.len()).find(|k| spare[*k].copy(&entry.column, Some(order)));
+            let place = place.unwrap_or_else(|| {
+                spare.push(entry.picked(order));
+                spare.len() - 1
+            });
+            std::mem::swap(&mut entry.column, &mut spare[place]);
         }
     }
 

@@ -14,7 +14,7 @@ impl<const D: usize> Store<D> {
         let leaves = |slot: &u32| leaves.get(*slot as usize) == Some(&true);
         let (out, stay): (Vec<u32>, Vec<u32>) = (0..self.len as u32).partition(leaves);
         let entries = self.entries.iter().map(|entry| Entry {
-            column: entry.column.picked(&out),
+            column: entry.picked(&out),
             ..*entry
         });
         let taken = Store {

@@ -79,10 +79,7 @@ fn mistakes_are_named() {
     let misspelt = law.build::<2>(&table("viscosty = 1")).err().unwrap();
     assert!(misspelt.to_string().contains("did you mean `viscosity`?"));
     let dimension = law.build::<3>(&table("viscosity = 1")).err().unwrap();
-    assert!(matches!(
-        dimension,
-        RegistryError::Dimension { dimension: 3, .. }
-    ));
+    assert!(matches!(dimension, RegistryError::Dimension(.., 3)));
 }
 
 #[test]

@@ -12,24 +12,17 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a new particle is impossible, or a column is missing.
     pub fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
-        let Some(nursery) = self.nursery.take() else {
+        if self.nursery.is_none() {
             return Ok(());
-        };
-        let done = self.bear(&nursery, dt);
-        self.nursery = Some(nursery);
-        done
-    }
-
-    fn bear(&mut self, nursery: &NewParticleDefaults<D>, dt: f64) -> Result<(), StepError> {
+        }
         let mut all: Vec<Newborn<D>> = Vec::new();
         for (gate, access) in self.gates.iter_mut().zip(&self.columns.gates) {
             self.world.free.watch([access]);
             let born = gate.births(&mut self.world, dt);
-            let ended = self.world.free.unwatch(|| gate.name());
-            ended?;
+            self.world.free.unwatch(|| gate.name())?;
             all.extend(born?);
         }
-        self.insert_all(nursery, &all)
+        self.insert(&all)
     }
 
     /// Lets in these particles.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sph_contribution::StepPhase;
 use sph_core::{StepError, fields};
-use sph_neighbours::{WallForce, facing_forces, reactions};
+use sph_neighbours::{WallForce, loads, reactions};
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
@@ -66,10 +66,7 @@ impl<const D: usize> Flow<D> {
             return Ok(());
         }
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        self.loads = reactions(&self.world, &terms, force_requests)?;
-        let facing = facing_forces(&self.world, force_requests)?;
-        let loads = self.loads.iter_mut().zip(&facing);
-        loads.for_each(|(f, more)| f.add(more));
+        self.loads = loads(&self.world, &terms, force_requests)?;
         Ok(())
     }
 
@@ -97,11 +94,8 @@ impl<const D: usize> Flow<D> {
         if !self.outside.is_empty() {
             let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
             let more = reactions(&self.world, &outside, force_requests)?;
-            let walls = self.loads.iter_mut().zip(more);
-            walls.for_each(|(whole, more)| {
-                whole.force += more.force;
-                (0..3).for_each(|k| whole.moment[k] += more.moment[k]);
-            });
+            let walls = self.loads.iter_mut().zip(&more);
+            walls.for_each(|(whole, more)| whole.add(more));
         }
         let walls = self.loads.iter_mut().zip(&self.on_walls);
         walls.for_each(|(whole, own)| whole.add(own));
