@@ -2,6 +2,12 @@
 //!
 //! The wall plugin makes the points and elements and sets their values.
 
+pub(crate) mod contact_block;
+pub(crate) mod contacts;
+pub(crate) mod free_body;
+pub(crate) mod slopes;
+pub(crate) mod wall_force;
+
 use sph_core::Vect;
 use sph_core::bed::Bed;
 

@@ -7,7 +7,7 @@ use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Scalar, Store, Vect
 use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
-use crate::pools::Pools;
+use crate::pairs::pools::Pools;
 use crate::{CellGrid, Clusters, Domain, Extent, Hidden, SweepHalf, WallPoints, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.

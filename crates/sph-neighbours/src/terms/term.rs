@@ -3,9 +3,9 @@
 use sph_core::{Access, StepError, contract};
 use sph_kernels::lanes::InLanes;
 
-use crate::lane_pair::{LanePair, Pair};
-use crate::pair_sum::{PairSum, sum_cluster};
-use crate::particles::Particles;
+use crate::lanes::lane_pair::{LanePair, Pair};
+use crate::lanes::particles::Particles;
+use crate::pairs::pair_sum::{PairSum, sum_cluster};
 use crate::{Cluster, Neighbourhood, Rates, Row, World};
 
 impl<'a, const D: usize> Row<'a, D> {

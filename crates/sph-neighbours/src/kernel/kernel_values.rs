@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 
 use crate::Domain;
-use crate::buffer::grow;
+use crate::lists::buffer::grow;
 
 /// Squared distances and kernel values.
 #[derive(Default)]

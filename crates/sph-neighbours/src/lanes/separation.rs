@@ -4,10 +4,10 @@ use sph_core::Vect;
 use sph_kernels::lanes::{Body, Lane, dot};
 
 use crate::Domain;
-use crate::buffer::grow;
-use crate::lane_vector::minus;
-use crate::members::Members;
-use crate::particles::Particles;
+use crate::lanes::lane_vector::minus;
+use crate::lanes::particles::Particles;
+use crate::lists::buffer::grow;
+use crate::lists::members::Members;
 
 /// The places of some points, one in each lane; the last one fills the rest.
 #[inline(always)]

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::blocks::each_block;
-use crate::scaling::Scaling;
+use crate::kernel::scaling::Scaling;
 use crate::{CHUNK, Clusters, Domain, NOBODY, Neighbourhood, Rows, Scratch, World};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.

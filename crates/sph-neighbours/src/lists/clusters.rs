@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use sph_core::{Pool, Vect};
 use sph_kernels::lanes::{Body, Lane, dispatch_at, width};
 
-use crate::buffer::{grow, keep_all};
-use crate::members::Members;
-use crate::separation::{distance2_at, places};
+use crate::lanes::separation::{distance2_at, places};
+use crate::lists::buffer::{grow, keep_all};
+use crate::lists::members::Members;
 use crate::{CellGrid, Domain};
 
 /// Particles that one task works through; also the granule of the lists.

@@ -8,12 +8,12 @@ use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
 use crate::blocks::each_block;
-use crate::buffer::grow;
-use crate::cluster::Cluster;
-use crate::lane_pair::LanePair;
-use crate::pair_sum::{PairSum, sum_cluster};
-use crate::particles::Particles;
-use crate::sweep::{Sweep, TaskScratch};
+use crate::lanes::lane_pair::LanePair;
+use crate::lanes::particles::Particles;
+use crate::lists::buffer::grow;
+use crate::pairs::cluster::Cluster;
+use crate::pairs::pair_sum::{PairSum, sum_cluster};
+use crate::terms::sweep::{Sweep, TaskScratch};
 use crate::{CHUNK, Neighbourhood, World};
 
 /// Goes over the clusters of a world at the present places, block by block.

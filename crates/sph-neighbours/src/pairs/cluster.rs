@@ -6,11 +6,11 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Lane, MOST, Width, dispatch_at};
 
-use crate::buffer::grow;
-use crate::lane_pair::LanePair;
-use crate::members::Members;
-use crate::scaling::Scaling;
-use crate::separation::Distances;
+use crate::kernel::scaling::Scaling;
+use crate::lanes::lane_pair::LanePair;
+use crate::lanes::separation::Distances;
+use crate::lists::buffer::grow;
+use crate::lists::members::Members;
 use crate::{ContactRow, Contacts, Domain, HiddenPairs, Neighbourhood, Row, Scratch};
 
 /// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.
@@ -51,7 +51,7 @@ pub(crate) struct Buffers<const D: usize> {
     /// Rows of free neighbours, one per member, where rows were requested.
     free: [Scratch<D>; MOST],
     /// Sums of the members.
-    pub sums: crate::particles::Rows,
+    pub sums: crate::lanes::particles::Rows,
     /// True if `free` is of the cluster at hand.
     rows: bool,
 }

@@ -1,6 +1,6 @@
 //! Pairs that do not see each other, because a wall stands between them.
 
-use crate::members::Members;
+use crate::lists::members::Members;
 
 /// Sorted pairs of indices; a row holds the indices that its own does not see.
 #[derive(Clone, Debug, Default)]

@@ -4,8 +4,8 @@ use sph_core::{Store, Vect, fields};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, Lane, Width, dispatch_at};
 
-use crate::members::Members;
-use crate::particles::Particles;
+use crate::lanes::particles::Particles;
+use crate::lists::members::Members;
 
 /// Columns of walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, Vect, fields};
 
-use crate::facing::facing_forces;
+use crate::loads::facing::facing_forces;
 use crate::{Interaction, WallForce, WallPart, World, wall_parts};
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.

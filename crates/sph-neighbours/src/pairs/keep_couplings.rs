@@ -4,10 +4,10 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_kernels::lanes::{Body, Lane, MOST, dispatch_at, dot};
 
-use crate::cluster::Cluster;
-use crate::couplings::{BlockCouplings, Couplings, Group, Kinds};
-use crate::lane_vector::{minus, vector};
-use crate::separation::places;
+use crate::lanes::lane_vector::{minus, vector};
+use crate::lanes::separation::places;
+use crate::pairs::cluster::Cluster;
+use crate::pairs::couplings::{BlockCouplings, Couplings, Group, Kinds};
 use crate::{CHUNK, ClusterWalk, World};
 
 /// Pairs that are coupled too weakly to be kept: −C_ab (u_a − u_b) of a given velocity is summed in their place.

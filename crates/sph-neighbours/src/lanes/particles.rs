@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_kernels::lanes::{Lane, MOST};
 
-use crate::members::Members;
+use crate::lists::members::Members;
 
 /// Particles that follow each other, one in each lane; the last one fills the lanes that are left over.
 #[derive(Clone, Copy, Debug)]

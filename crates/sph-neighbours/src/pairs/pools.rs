@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use sph_core::{Pool, Vect};
 
-use crate::cluster::Buffers;
-use crate::kernel_values::{SumScratch, Values};
-use crate::{CellGrid, Rates, Rows, particles};
+use crate::kernel::kernel_values::{SumScratch, Values};
+use crate::lanes::particles;
+use crate::pairs::cluster::Buffers;
+use crate::{CellGrid, Rates, Rows};
 
 /// Buffers of the tasks that walk over lists, and of those that build them.
 #[derive(Default)]

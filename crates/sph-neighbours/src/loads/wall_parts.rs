@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::MOST;
 
-use crate::sweep::{Sweep, with_all};
+use crate::terms::sweep::{Sweep, with_all};
 use crate::{
     CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, Rates, RowTerm,
     Scratch, World,

@@ -8,11 +8,11 @@ use sph_core::{Access, StepError, Vect};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{MOST, Width, width};
 
-use crate::cluster::{Buffers, Cluster};
-use crate::half::is_wanted;
-use crate::members::{Members, groups};
-use crate::term::{Interaction, RowTerm, WithTerm};
-use crate::walk::Surroundings;
+use crate::lists::half::is_wanted;
+use crate::lists::members::{Members, groups};
+use crate::pairs::cluster::{Buffers, Cluster};
+use crate::pairs::walk::Surroundings;
+use crate::terms::term::{Interaction, RowTerm, WithTerm};
 use crate::{CHUNK, Neighbourhood, Rates, TRANSPORTED, World};
 
 /// Sums all terms of all particles.

@@ -2,10 +2,10 @@
 
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
-use crate::buffer::grow;
-use crate::cluster::Cluster;
-use crate::lane_pair::LanePair;
-use crate::particles::{Particles, Rows};
+use crate::lanes::lane_pair::LanePair;
+use crate::lanes::particles::{Particles, Rows};
+use crate::lists::buffer::grow;
+use crate::pairs::cluster::Cluster;
 
 /// A sum over free neighbours: of several particles side by side, or of one.
 ///
