@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use sph_core::StepError;
 
-use crate::World;
-use crate::blocks::joined;
+use crate::{World, joined};
 
 /// Bits of the largest value in a sum: with as many as these, 2⁴⁶ values cannot overflow 128 bits.
 const BITS: i32 = 80;

@@ -2,8 +2,10 @@
 
 use sph_core::Vect;
 
-use crate::decomposition::bisect::check;
-use crate::decomposition::{PartError, Transport, TransportError};
+use crate::decomposition::{
+    bisect::check,
+    {PartError, Transport, TransportError},
+};
 
 /// Halvings of an interval until its ends are one number, or nearly.
 const HALVINGS: usize = 52;

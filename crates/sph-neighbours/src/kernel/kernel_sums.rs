@@ -3,17 +3,14 @@
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
-use crate::blocks::each_block;
 use crate::kernel::kernel_values::SumScratch;
-use crate::kernel::scaling::Scaling;
-use crate::lanes::lane_pair::LanePair;
-use crate::lanes::lane_vector::minus;
-use crate::lanes::particles::{Particles, Rows};
-use crate::lanes::separation::Distances;
+use crate::lanes::{particles::Rows, separation::Distances};
 use crate::lists::buffer::grow;
 use crate::lists::members::{Members, groups};
-use crate::pairs::pair_sum::PairSum;
-use crate::{CHUNK, Clusters, Domain, HiddenPairs, WallPoints, World};
+use crate::{
+    CHUNK, Clusters, Domain, HiddenPairs, LanePair, PairSum, Particles, Scaling, WallPoints, World,
+    each_block, minus,
+};
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
 ///

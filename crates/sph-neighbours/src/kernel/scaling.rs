@@ -4,7 +4,7 @@ use sph_core::{Store, Vect, fields};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, Lane, Width, dispatch_at};
 
-use crate::lanes::particles::Particles;
+use crate::Particles;
 use crate::lists::members::Members;
 
 /// Columns of walls that scale the kernel.

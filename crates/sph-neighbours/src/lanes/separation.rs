@@ -3,11 +3,8 @@
 use sph_core::Vect;
 use sph_kernels::lanes::{Body, Lane, dot};
 
-use crate::Domain;
-use crate::lanes::lane_vector::minus;
-use crate::lanes::particles::Particles;
-use crate::lists::buffer::grow;
-use crate::lists::members::Members;
+use crate::lists::{buffer::grow, members::Members};
+use crate::{Domain, Particles, minus};
 
 /// The places of some points, one in each lane; the last one fills the rest.
 #[inline(always)]

@@ -6,12 +6,11 @@ use sph_core::Vect;
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Lane, MOST, Width, dispatch_at};
 
-use crate::kernel::scaling::Scaling;
-use crate::lanes::lane_pair::LanePair;
 use crate::lanes::separation::Distances;
-use crate::lists::buffer::grow;
-use crate::lists::members::Members;
-use crate::{ContactRow, Contacts, Domain, HiddenPairs, Neighbourhood, Row, Scratch};
+use crate::lists::{buffer::grow, members::Members};
+use crate::{
+    ContactRow, Contacts, Domain, HiddenPairs, LanePair, Neighbourhood, Row, Scaling, Scratch,
+};
 
 /// A few particles that follow each other, with distances and kernel gradients for all possible neighbours.
 pub struct Cluster<'a, const D: usize> {

@@ -7,14 +7,10 @@ use sph_core::{Pool, StepError};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
-use crate::blocks::each_block;
-use crate::lanes::lane_pair::LanePair;
-use crate::lanes::particles::Particles;
 use crate::lists::buffer::grow;
-use crate::pairs::cluster::Cluster;
-use crate::pairs::pair_sum::{PairSum, sum_cluster};
+use crate::pairs::pair_sum::sum_cluster;
 use crate::terms::sweep::{Sweep, TaskScratch};
-use crate::{CHUNK, Neighbourhood, World};
+use crate::{CHUNK, Cluster, LanePair, Neighbourhood, PairSum, Particles, World, each_block};
 
 /// Goes over the clusters of a world at the present places, block by block.
 pub struct ClusterWalk<'w, const D: usize> {

@@ -3,10 +3,8 @@
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Body, Lane, Width, dispatch_at};
 
-use crate::blocks::each_block;
-use crate::lanes::lane_vector::{minus, vector};
 use crate::lanes::separation::places;
-use crate::{CHUNK, Domain, World};
+use crate::{CHUNK, Domain, World, each_block, minus, vector};
 
 /// The numbers of C = α 1 + β r rᵀ that are not zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

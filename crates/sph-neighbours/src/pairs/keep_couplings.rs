@@ -4,11 +4,9 @@ use rayon::prelude::*;
 use sph_core::{StepError, Vect};
 use sph_kernels::lanes::{Body, Lane, MOST, dispatch_at, dot};
 
-use crate::lanes::lane_vector::{minus, vector};
 use crate::lanes::separation::places;
-use crate::pairs::cluster::Cluster;
-use crate::pairs::couplings::{BlockCouplings, Couplings, Group, Kinds};
-use crate::{CHUNK, ClusterWalk, World};
+use crate::pairs::couplings::{BlockCouplings, Group};
+use crate::{CHUNK, Cluster, ClusterWalk, Couplings, Kinds, World, minus, vector};
 
 /// Pairs that are coupled too weakly to be kept: −C_ab (u_a − u_b) of a given velocity is summed in their place.
 #[derive(Clone, Copy, Debug)]

@@ -2,10 +2,9 @@
 
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
-use crate::lanes::lane_pair::LanePair;
-use crate::lanes::particles::{Particles, Rows};
+use crate::lanes::particles::Rows;
 use crate::lists::buffer::grow;
-use crate::pairs::cluster::Cluster;
+use crate::{Cluster, LanePair, Particles};
 
 /// A sum over free neighbours: of several particles side by side, or of one.
 ///

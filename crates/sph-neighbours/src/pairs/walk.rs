@@ -3,9 +3,9 @@
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::Sampler;
 
-use crate::blocks::each_block;
-use crate::kernel::scaling::Scaling;
-use crate::{CHUNK, Clusters, Domain, NOBODY, Neighbourhood, Rows, Scratch, World};
+use crate::{
+    CHUNK, Clusters, Domain, NOBODY, Neighbourhood, Rows, Scaling, Scratch, World, each_block,
+};
 
 /// Finds neighbourhoods one by one, with the buffers of one thread.
 pub struct Surroundings<'w, const D: usize> {

@@ -8,12 +8,12 @@ use sph_core::{Access, StepError, Vect};
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{MOST, Width, width};
 
-use crate::lists::half::is_wanted;
 use crate::lists::members::{Members, groups};
-use crate::pairs::cluster::{Buffers, Cluster};
-use crate::pairs::walk::Surroundings;
-use crate::terms::term::{Interaction, RowTerm, WithTerm};
-use crate::{CHUNK, Neighbourhood, Rates, TRANSPORTED, World};
+use crate::pairs::cluster::Buffers;
+use crate::{
+    CHUNK, Cluster, Interaction, Neighbourhood, Rates, RowTerm, Surroundings, TRANSPORTED,
+    WithTerm, World, is_wanted,
+};
 
 /// Sums all terms of all particles.
 ///

@@ -3,10 +3,8 @@
 use sph_core::{Access, StepError, contract};
 use sph_kernels::lanes::InLanes;
 
-use crate::lanes::lane_pair::{LanePair, Pair};
-use crate::lanes::particles::Particles;
-use crate::pairs::pair_sum::{PairSum, sum_cluster};
-use crate::{Cluster, Neighbourhood, Rates, Row, World};
+use crate::pairs::pair_sum::sum_cluster;
+use crate::{Cluster, LanePair, Neighbourhood, Pair, PairSum, Particles, Rates, Row, World};
 
 impl<'a, const D: usize> Row<'a, D> {
     /// Its pairs, each with the index of the other.
