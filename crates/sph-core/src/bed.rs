@@ -4,7 +4,7 @@
 const NEAR: f64 = 1e-6;
 
 /// A regular grid of places in the horizontal plane; in two dimensions a line of them along x.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelGrid {
     /// The first place, m.
     pub lower: [f64; 2],
@@ -121,7 +121,7 @@ impl LevelGrid {
 ///
 /// A place of the wall at the height Z when it was drawn is lifted by ζ(x, y) max(0, min(1, 1 − (Z − z₀)/H)), with the lift ζ of
 /// the bed, its first level z₀ and a height H within which walls that stand in the bed stretch. Beyond the grid walls stay.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bed {
     /// Numbers of the walls that follow it; the bed's own one is the first.
     pub walls: Vec<u32>,
@@ -170,7 +170,6 @@ impl Bed {
     pub fn drawn(grid: LevelGrid, levels: Vec<f64>) -> Self {
         let count = grid.len();
         Bed {
-            walls: Vec::new(),
             grid,
             drawn: levels,
             covered: vec![false; count],
@@ -181,12 +180,7 @@ impl Bed {
             rate: vec![0.0; count],
             shear: vec![[0.0; 2]; count],
             transport: vec![[0.0; 2]; count],
-            fed: 0.0,
-            slid: 0.0,
-            lifted: 0.0,
-            critical: Vec::new(),
-            unit_shear: 0.0,
-            unit_transport: 0.0,
+            ..Bed::default()
         }
     }
 

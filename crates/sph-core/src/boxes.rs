@@ -180,7 +180,6 @@ impl<const D: usize> BoxTree<D> {
     }
 }
 
-/// Squared distance of a point from a box.
 fn outside<const D: usize>(x: &[f64; D], [low, high]: &Corners<D>) -> f64 {
     let beyond = |k: usize| (low[k] - x[k]).max(x[k] - high[k]).max(0.0);
     (0..D).map(|k| beyond(k).powi(2)).sum()

@@ -101,7 +101,6 @@ impl Item for Symmetric {
 }
 
 impl<const D: usize> Column<D> {
-    /// Number of entries, and bytes of each.
     pub(crate) fn size(&self) -> [usize; 2] {
         fn size<T>(items: &[T]) -> [usize; 2] {
             [items.len(), size_of::<T>()]
@@ -109,7 +108,6 @@ impl<const D: usize> Column<D> {
         each_type!(self, items => size(items))
     }
 
-    /// Cuts or lengthens it; new entries are zeros.
     pub(crate) fn resize(&mut self, n: usize) {
         each_type!(self, items => items.resize(n, Item::zero()));
     }

@@ -29,7 +29,7 @@ impl<const D: usize> Store<D> {
     /// Copies every state column; reuses the buffers.
     ///
     /// # Errors
-    /// If a column has changed its type since it was copied last.
+    /// If a column has changed its type since it was copied last, as everywhere below.
     pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
         let state = || self.entries.iter().filter(|e| e.role == Role::State);
         let names = saved.columns.iter().map(|c| c.0);
@@ -49,9 +49,6 @@ impl<const D: usize> Store<D> {
 
     /// Puts everything back as it was saved: particles that left come back, particles born since are gone. State
     /// columns that have come since become zero; derived ones have to be computed anew.
-    ///
-    /// # Errors
-    /// If a column has changed its type.
     pub fn restore_state(&mut self, saved: &Saved<D>) -> Result<(), FieldError> {
         self.set_len(saved.len);
         self.taken.clone_from(&saved.taken);
@@ -64,7 +61,7 @@ impl<const D: usize> Store<D> {
     /// copies were made become zero.
     ///
     /// # Errors
-    /// If a column has changed its type, or another number of particles was copied.
+    /// If, besides, another number of particles was copied.
     pub fn put_state(
         &mut self,
         saved: &Saved<D>,

@@ -142,7 +142,6 @@ pub trait Stage<C>: Declares + Send {
     }
 }
 
-/// A stage that is one function.
 struct FunctionStage<F> {
     name: &'static str,
     access: Access,

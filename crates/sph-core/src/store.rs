@@ -37,9 +37,7 @@ impl<const D: usize> Entry<D> {
 pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
-    /// Particles taken out.
     pub(crate) taken: Vec<Removed>,
-    /// Particles born.
     pub(crate) born: Inserted,
     pub(crate) watch: Watch,
     /// A column of each type to sort into: allocated when particles of such a column are first sorted.
@@ -175,32 +173,23 @@ impl<const D: usize> Store<D> {
     /// The entries of a column.
     ///
     /// # Errors
-    /// If the column was not declared, or it has another type.
+    /// If the column was not declared, or it has another type; as everywhere below.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         self.column(field)
     }
 
     /// The entries of the columns of several fields in a tuple.
-    ///
-    /// # Errors
-    /// As [`get`](Self::get).
     pub fn all<F: FieldList>(&self, fields: F) -> Result<F::Items<'_, D>, FieldError> {
         fields.items(self)
     }
 
     /// The entries of a column for the division of a flow, which no work declares.
-    ///
-    /// # Errors
-    /// As [`get`](Self::get).
     pub fn unwatched<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let items = K::items(&self.entry(field.name)?.column);
         items.map(Vec::as_slice).ok_or(FieldError::Type(field.name))
     }
 
     /// The entries of a column, to be changed.
-    ///
-    /// # Errors
-    /// If the column was not declared, or it has another type.
     pub fn get_mut<K: Kind>(
         &mut self,
         field: Field<K>,
@@ -212,9 +201,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Takes a column out so that it can be written while others are read.
-    ///
-    /// # Errors
-    /// If the column was not declared, or it has another type.
     pub fn take<K: Kind>(&mut self, field: Field<K>) -> Result<Vec<K::Item<D>>, FieldError> {
         self.get_mut(field).map(std::mem::take)
     }
@@ -222,7 +208,7 @@ impl<const D: usize> Store<D> {
     /// Puts a taken column back.
     ///
     /// # Errors
-    /// If the column is not there, has another type, or the length has changed.
+    /// If, besides, the length has changed, as below.
     pub fn put<K: Kind>(
         &mut self,
         field: Field<K>,
@@ -287,9 +273,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Overwrites a column by name with plain reals.
-    ///
-    /// # Errors
-    /// If the column is missing, of another type, or of another length.
     pub fn set_real(&mut self, name: &'static str, values: &[f64]) -> Result<(), FieldError> {
         let len = self.len;
         match self.column_mut(name)? {
@@ -316,9 +299,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Overwrites a column by name with unsigned integers.
-    ///
-    /// # Errors
-    /// If the column is missing, of another type, or of another length.
     pub fn set_index(&mut self, name: &'static str, values: &[u32]) -> Result<(), FieldError> {
         let len = self.len;
         match self.column_mut(name)? {

@@ -19,7 +19,6 @@ pub struct Winding {
     clusters: Vec<Cluster>,
 }
 
-/// Triangles that lie together.
 #[derive(Clone, Debug)]
 struct Cluster {
     first: usize,

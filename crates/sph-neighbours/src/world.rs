@@ -199,7 +199,6 @@ impl<const D: usize> World<D> {
         (!grid.is_sorted()).then(|| grid.order().to_vec())
     }
 
-    /// The cells of free particles at these positions.
     fn grid<'s>(
         &self,
         positions: &[Vect<D>],

@@ -26,7 +26,6 @@ impl Owned {
         Owned(self.0.as_ref().map(rows))
     }
 
-    /// The marks, where there are copies.
     pub(crate) fn marks(&self) -> Option<&[bool]> {
         self.0.as_deref()
     }

@@ -75,7 +75,6 @@ impl<const D: usize> World<D> {
         Ok(sums.iter().zip(shifts).map(each).collect())
     }
 
-    /// Adds the whole numbers of all ranks.
     fn total(&self, sums: &mut [i128]) -> Result<(), StepError> {
         let Some(link) = &self.communicator else {
             return Ok(());

@@ -70,7 +70,6 @@ pub fn bisect<const D: usize>(
     Ok(owners)
 }
 
-/// Refuses places and costs that cannot be divided.
 pub(crate) fn check<const D: usize>(
     places: &[Vect<D>],
     costs: &[f64],

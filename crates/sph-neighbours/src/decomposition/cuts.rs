@@ -20,7 +20,6 @@ pub struct Cuts<const D: usize> {
     planes: Vec<(usize, f64)>,
 }
 
-/// Ranks that share a part of space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Group {
     first: usize,

@@ -81,10 +81,8 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Bytes of a number and a pressure.
 const ENTRY: usize = 12;
 
-/// The first bytes of a slice.
 fn bytes<const N: usize>(from: &[u8]) -> [u8; N] {
     std::array::from_fn(|k| from.get(k).copied().unwrap_or(0))
 }

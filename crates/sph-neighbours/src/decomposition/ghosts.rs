@@ -7,13 +7,11 @@ use crate::{CellGrid, Domain, World};
 /// Lower and upper corner of a box around the particles of a rank, m; upside down where there is none.
 pub(crate) type RankBox<const D: usize> = [Vect<D>; 2];
 
-/// The box around some places.
 pub(crate) fn around<'a, const D: usize>(places: impl Iterator<Item = &'a Vect<D>>) -> RankBox<D> {
     let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::repeat);
     places.fold(nothing, |[lower, upper], x| [lower.inf(x), upper.sup(x)])
 }
 
-/// The box around the places that a rank owns.
 pub(crate) fn around_own<const D: usize>(
     places: &[Vect<D>],
     owners: &[u32],

@@ -36,9 +36,7 @@ pub struct Parts<const D: usize> {
     /// Its connection with the others.
     pub link: Arc<Link>,
     cuts: Cuts<D>,
-    /// Particles that went to another rank.
     moved: u64,
-    /// Rebuilds since the last check of the parts.
     builds: u64,
 }
 
@@ -48,7 +46,7 @@ impl<const D: usize> Parts<D> {
     /// to cost the same: the parts are checked when lists are built next.
     ///
     /// # Errors
-    /// More ranks than particles; a column that is missing.
+    /// More ranks than particles; messages that fail, another rank that has failed, or a missing column, as everywhere below.
     pub fn divide(
         world: &mut World<D>,
         rings: usize,
@@ -129,9 +127,6 @@ impl<const D: usize> Parts<D> {
     }
 
     /// As [`Link::update_ghosts`]; does some `work` while the messages are on their way.
-    ///
-    /// # Errors
-    /// Another rank that has failed; messages that fail.
     pub fn update_ghosts_during(
         &self,
         world: &mut World<D>,
@@ -154,9 +149,6 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Gives newborn particles to the ranks that own their places.
-    ///
-    /// # Errors
-    /// A column that is missing.
     pub fn house(
         &self,
         free: &mut Store<D>,
@@ -172,9 +164,6 @@ impl<const D: usize> Parts<D> {
 
     /// Gives every particle to the rank that owns its place, finds all ghosts anew, and builds the lists. `cost` is that of every
     /// particle of this rank.
-    ///
-    /// # Errors
-    /// Messages that fail; a column that is missing.
     pub fn rebuild(
         &mut self,
         world: &mut World<D>,
@@ -287,7 +276,6 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Boxes around the particles of each rank.
     fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
         let own = around(world.free.get(fields::POSITION)?.iter());
         let numbers = own.iter().flat_map(|corner| corner.iter());
@@ -318,7 +306,6 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Slots of particles by the ranks that own them.
 fn by_owner(owners: &[u32], ranks: usize) -> Vec<Partner> {
     let mut all: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
     for (slot, owner) in owners.iter().enumerate() {

@@ -9,9 +9,7 @@ use crate::decomposition::{Transport, TransportError};
 #[derive(Debug)]
 pub struct Thread {
     rank: usize,
-    /// To every rank.
     to: Vec<Sender<Vec<u8>>>,
-    /// From every rank.
     from: Vec<Mutex<Receiver<Vec<u8>>>>,
 }
 

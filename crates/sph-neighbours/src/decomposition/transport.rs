@@ -110,7 +110,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 }
 
-/// The larger one; NaN counts as infinite.
 fn larger(a: f64, b: f64) -> f64 {
     let number = |v: f64| if v.is_nan() { f64::INFINITY } else { v };
     number(a).max(number(b))

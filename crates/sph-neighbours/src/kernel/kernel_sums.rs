@@ -18,7 +18,7 @@ use crate::{
 /// [`Lists::pruned`](crate::Lists::pruned) for the sweeps that follow at the same positions.
 ///
 /// # Errors
-/// If the world has no positions.
+/// If the world has no positions, as everywhere below.
 pub fn kernel_sums<const D: usize>(
     world: &mut World<D>,
     sums: &mut [f64],
@@ -142,9 +142,6 @@ impl Body for Total<'_> {
 ///
 /// Each sums its particles in the order of their indices, whatever the number of lanes; `hidden` has the pairs that are
 /// left out.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     world: &World<D>,
     targets: &[Vect<D>],

@@ -6,7 +6,6 @@ use sph_kernels::Sampler;
 use crate::Domain;
 use crate::lists::buffer::grow;
 
-/// Squared distances and kernel values.
 #[derive(Default)]
 pub(crate) struct Values {
     pub distance2: Vec<f64>,

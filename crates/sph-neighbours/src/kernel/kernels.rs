@@ -8,7 +8,6 @@ contract!(
     pub KernelEntry, "kernel", One, "the smoothing function w(r, h)", Kernel, .by_default("wendland-c2")
 );
 
-/// The table of a kernel without parameters.
 #[parameters]
 struct NoParameters {}
 

@@ -10,7 +10,6 @@ use crate::lists::members::Members;
 /// Columns of walls that scale the kernel.
 #[derive(Clone, Copy, Debug)]
 pub struct Scaling<'a, const D: usize> {
-    /// s of every particle.
     scale: &'a [f64],
     slope: SlopeOf<'a, D>,
     pub(crate) kernel: &'a dyn Sampler,
@@ -59,7 +58,6 @@ impl<'a, const D: usize> Scaling<'a, D> {
         }
     }
 
-    /// At a particle.
     #[inline(always)]
     pub(crate) fn at(&self, particle: usize) -> WallScale<D> {
         let own = self.scale[particle];
@@ -72,7 +70,6 @@ impl<'a, const D: usize> Scaling<'a, D> {
         }
     }
 
-    /// s_a s_b.
     pub(crate) fn of_pair(&self, first: usize, second: usize) -> f64 {
         self.scale[first] * self.scale[second]
     }
@@ -87,7 +84,6 @@ pub struct WallScale<const D: usize> {
     pub slope: Vect<D>,
 }
 
-/// [`Scaling::scale_pairs`] with lanes.
 struct ScaledPairs<'a> {
     members: Members<'a>,
     scale: &'a [f64],

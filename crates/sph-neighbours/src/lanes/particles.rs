@@ -22,7 +22,6 @@ impl Particles {
         }
     }
 
-    /// The first ones, at least one.
     #[inline(always)]
     pub(crate) fn first(count: usize) -> Self {
         Particles {

@@ -1,6 +1,5 @@
 //! Buffers that are used again and again.
 
-/// Makes room for as many items.
 pub(crate) fn grow<T: Copy + Default>(buffer: &mut Vec<T>, needed: usize) {
     if buffer.len() < needed {
         buffer.resize(needed.next_power_of_two(), T::default());

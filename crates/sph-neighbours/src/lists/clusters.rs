@@ -17,7 +17,6 @@ pub const CHUNK: usize = 64;
 /// A cluster ends where its box would be longer than this many reaches: at the ends of rows of cells, in splashes.
 const LONGEST: f64 = 1.5;
 
-/// Clusters of one task.
 #[derive(Clone, Debug, Default)]
 struct Block {
     /// Begin of each cluster, counted from the block's first particle; the number of particles at the end.
@@ -29,7 +28,6 @@ struct Block {
     of: Vec<u8>,
 }
 
-/// Buffers of a task that builds clusters.
 type TaskScratch = (Vec<u32>, Vec<Range<usize>>);
 
 /// For every free particle, or place on a wall, the free particles that may be within reach: one list for a cluster of at
@@ -67,7 +65,6 @@ impl Clusters {
         self.build_of(1, points, grid, within, pool, None);
     }
 
-    /// Lists of clusters of at most `most` targets.
     fn build_of<const D: usize>(
         &mut self,
         most: usize,
@@ -253,7 +250,6 @@ impl Block {
     }
 }
 
-/// Looks for the candidates of one cluster.
 struct CandidateSearch<'a, const D: usize> {
     own: &'a [Vect<D>],
     points: &'a [Vect<D>],
@@ -267,7 +263,6 @@ struct CandidateSearch<'a, const D: usize> {
 }
 
 impl<const D: usize> Body for CandidateSearch<'_, D> {
-    /// Number of filled slots.
     type Output = usize;
 
     #[inline(always)]

@@ -50,7 +50,6 @@ pub struct CellGrid<const D: usize> {
 }
 
 impl<const D: usize> Default for CellGrid<D> {
-    /// No cells.
     fn default() -> Self {
         CellGrid {
             lower: Vect::zeros(),
@@ -196,7 +195,6 @@ impl<const D: usize> CellGrid<D> {
             .min(self.counts[axis] - 1)
     }
 
-    /// The cell that a point counts for.
     pub(crate) fn cell_of(&self, x: &Vect<D>) -> usize {
         (0..D).rev().fold(0, |cell, axis| {
             cell * self.counts[axis] + self.coordinate(x, axis)

@@ -59,7 +59,7 @@ impl<const D: usize> World<D> {
     /// Neighbours of the particles that are `counted`; lists must have been built.
     ///
     /// # Errors
-    /// If there is no position column.
+    /// If there is no position column, as everywhere below.
     pub fn nearby(&self, counted: impl Fn(usize) -> bool + Sync) -> Result<Nearby, FieldError> {
         let positions = self.free.get(fields::POSITION)?;
         let support = self.kernel.support_radius();
@@ -94,9 +94,6 @@ impl<const D: usize> World<D> {
     }
 
     /// Mean number of neighbours within the support, wall points included; lists must have been built.
-    ///
-    /// # Errors
-    /// If there is no position column.
     pub fn mean_neighbours(&self) -> Result<f64, FieldError> {
         Ok(self.nearby(|_| true)?.mean_neighbours())
     }

@@ -77,7 +77,6 @@ pub(crate) fn facing_forces<const D: usize>(
     Ok(forces)
 }
 
-/// Two elements of different walls.
 struct Facing {
     /// The first is one of a wanted wall.
     pair: [usize; 2],
@@ -162,7 +161,6 @@ fn near<const D: usize, N: PartialEq + Sync>(
     all.flat_map_iter(before).collect()
 }
 
-/// True if two elements have a corner at the same place.
 fn are_joined<const D: usize>(world: &World<D>, first: usize, second: usize) -> bool {
     let (elements, points) = (&world.walls.elements, &world.walls.points.position);
     let [first, second] = [first, second].map(|e| elements.corners[e].map(|c| points[c as usize]));
@@ -195,7 +193,6 @@ fn angle<const D: usize>(world: &World<D>, element: usize, at: usize) -> f64 {
     -size.copysign(to_centre.dot(&elements.normal[element]))
 }
 
-/// The part of the kernel beyond a distance.
 struct OuterPart {
     support: f64,
     /// At the ends of the intervals.

@@ -14,7 +14,7 @@ use crate::{Interaction, WallForce, WallPart, World, wall_parts};
 /// `facing_forces` are added.
 ///
 /// # Errors
-/// If a term misses a column.
+/// If a term misses a column, as everywhere below.
 pub fn wall_forces<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
@@ -29,9 +29,6 @@ pub fn wall_forces<const D: usize>(
 }
 
 /// The same without the integrals of the pressure, which no single rank has on all elements; they are 0 here.
-///
-/// # Errors
-/// If a term misses a column.
 pub fn loads<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
@@ -45,9 +42,6 @@ pub fn loads<const D: usize>(
 }
 
 /// [`loads`] without `facing_forces`.
-///
-/// # Errors
-/// If a term misses a column.
 pub fn reactions<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
@@ -84,7 +78,6 @@ pub fn reactions<const D: usize>(
     all.collect()
 }
 
-/// The image of a particle that is beside the wall on which it acts, m.
 fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallPart<D>) -> Vect<D> {
     if !world.domain.periodic.contains(&true) {
         return *x;
@@ -110,7 +103,6 @@ fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallP
     x + (world.domain.nearest(apart) - apart) + walls.round(part.wall)
 }
 
-/// Force and moment of the pressure on the elements of a wall.
 fn pressure_on<const D: usize>(world: &World<D>, wall: u32) -> Result<[f64; 6], StepError> {
     let elements = &world.walls.elements;
     let owned = world.owned_elements()?;

@@ -94,7 +94,6 @@ struct SeparateWalls<const D: usize> {
     walls: Vec<u32>,
 }
 
-/// A member of a cluster that sees walls.
 struct WallMember {
     member: usize,
     particle: usize,
@@ -104,7 +103,6 @@ struct WallMember {
     pieces: Range<usize>,
 }
 
-/// One wall as a member sees it.
 struct Piece<const D: usize> {
     wall: u32,
     points: Scratch<D>,
@@ -121,7 +119,6 @@ fn all<const D: usize>(contacts: &ContactBlock<D>) -> ContactRow<'_, D> {
     contacts.row(0..contacts.planes())
 }
 
-/// Sums all terms for a cluster.
 fn sum<const D: usize>(
     cluster: &mut Cluster<'_, D>,
     term: &dyn RowTerm<D>,

@@ -17,11 +17,9 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) width: Width,
     pub(crate) members: Members<'a>,
     pub(crate) contacts: &'a Contacts<D>,
-    /// 1/γ of every member.
     pub(crate) inverse_renormalisation: [f64; MOST],
     /// Square of the support radius, m².
     pub(crate) limit: f64,
-    /// Scaling of the kernel by walls.
     pub(crate) scaling: Option<&'a Scaling<'a, D>>,
     /// True if some of its pairs are scaled.
     pub(crate) scaled: bool,

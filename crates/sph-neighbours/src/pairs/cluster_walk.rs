@@ -22,7 +22,7 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
     /// Of the particles of a world.
     ///
     /// # Errors
-    /// If the world has no positions.
+    /// If the world has no positions, as everywhere below.
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
         Ok(ClusterWalk {
             sweep: Sweep::new(world, &*world.kernel)?,
@@ -122,9 +122,6 @@ impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body
 
 /// Results of `of` for the sum over free neighbours and the walls near every particle that is wanted, into a place per
 /// particle; those of others stay as they are. The neighbourhood's free row is empty.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
     world: &World<D>,
     sum: &S,

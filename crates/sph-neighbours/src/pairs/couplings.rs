@@ -32,7 +32,6 @@ pub struct Couplings {
     pub(crate) kinds: Kinds,
 }
 
-/// Those of the particles of a block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BlockCouplings {
     pub groups: Vec<Group>,
@@ -40,13 +39,10 @@ pub(crate) struct BlockCouplings {
     pub numbers: Vec<f64>,
 }
 
-/// Particles side by side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group {
     pub width: Width,
-    /// The first particle.
     pub from: u32,
-    /// Their number.
     pub count: u32,
     /// The end of its columns.
     pub to: u32,
@@ -65,7 +61,6 @@ impl Couplings {
         self.blocks.iter().map(of).sum()
     }
 
-    /// The groups of a block, each with its columns and numbers.
     fn groups(&self, block: usize) -> impl Iterator<Item = (&Group, &[u32], &[f64])> {
         let kept = &self.blocks[block];
         let (mut start, mut rest) = (0, &kept.numbers[..]);
@@ -128,7 +123,6 @@ impl<const D: usize> CouplingsAt<'_, D> {
         });
     }
 
-    /// The sums of a group.
     fn group(
         &self,
         group: &Group,
@@ -205,7 +199,6 @@ pub trait Visitor<const D: usize> {
     fn end(&mut self, particle: usize);
 }
 
-/// The sums of a few particles.
 struct Product<'a, const D: usize> {
     x: &'a [Vect<D>],
     own: &'a [Vect<D>],

@@ -19,7 +19,6 @@ pub struct Row<'a, const D: usize> {
 }
 
 impl<const D: usize> Row<'_, D> {
-    /// Without neighbours.
     #[inline(always)]
     pub(crate) fn empty() -> Self {
         Row {
@@ -182,7 +181,6 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// A copy of a row with the sources that count.
     pub(crate) fn copied(row: &Row<'_, D>, counts: impl Fn(u32) -> bool) -> Self {
         let mut kept = Scratch::default();
         for k in (0..row.index.len()).filter(|k| counts(row.index[*k])) {
@@ -195,7 +193,6 @@ impl<const D: usize> Scratch<D> {
         kept
     }
 
-    /// Takes out the sources that a particle does not see.
     #[inline(always)]
     pub(crate) fn hide(&mut self, hidden: &HiddenPairs, particle: usize) {
         if hidden.is_empty() {

@@ -20,7 +20,7 @@ impl<'w, const D: usize> Surroundings<'w, D> {
     /// Of the particles of a world at their present places.
     ///
     /// # Errors
-    /// If the world has no positions.
+    /// If the world has no positions, as everywhere below.
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
         Ok(Surroundings {
             world,
@@ -36,7 +36,6 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         self.position.len()
     }
 
-    /// 1/γ of a particle.
     #[inline(always)]
     pub(crate) fn inverse_renormalisation(&self, particle: usize) -> f64 {
         self.renormalisation.map_or(1.0, |g| 1.0 / g[particle])
@@ -118,9 +117,6 @@ pub enum Values {
 }
 
 /// Results of `of` for every particle's neighbourhood, in the order of the particles.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn walk<const D: usize, R: Send>(
     world: &World<D>,
     values: Values,
@@ -131,9 +127,6 @@ pub fn walk<const D: usize, R: Send>(
 }
 
 /// The same for some particles only.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn walk_some<const D: usize, R: Send>(
     world: &World<D>,
     values: Values,
@@ -147,9 +140,6 @@ pub fn walk_some<const D: usize, R: Send>(
 }
 
 /// The same, into a place per particle; those of particles that are not wanted stay as they are.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn walk_into<const D: usize, R: Send>(
     world: &World<D>,
     values: Values,
@@ -184,5 +174,4 @@ pub fn walk_into<const D: usize, R: Send>(
     Ok(())
 }
 
-/// Buffers of a task: rows, and kernel values of free particles and wall points.
 type TaskScratch<const D: usize> = (Rows<D>, [Vec<f64>; 2]);

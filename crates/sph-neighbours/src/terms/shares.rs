@@ -19,7 +19,7 @@ pub struct TermShare<const D: usize> {
 /// Contribution of every term to a particle at the state of the last sweep.
 ///
 /// # Errors
-/// If a term misses a column.
+/// If a term misses a column, as everywhere below.
 pub fn shares_at<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
@@ -72,9 +72,6 @@ pub struct ClassRate<const D: usize> {
 /// The sums of `N` classes of terms at the state of the last sweep, one entry per particle; terms of no class are left out.
 ///
 /// Every term goes over the neighbours on its own: for the account of a step, not for the step.
-///
-/// # Errors
-/// If a term misses a column.
 pub fn class_rates<const D: usize, const N: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],

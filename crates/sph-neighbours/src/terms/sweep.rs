@@ -21,7 +21,7 @@ use crate::{
 /// formulation evolves one, its rate. One virtual call per cluster and term.
 ///
 /// # Errors
-/// If a term misses a column.
+/// If a term misses a column, or the world has no positions; as everywhere below.
 pub fn interactions<const D: usize>(
     world: &World<D>,
     terms: &[Box<dyn Interaction<D>>],
@@ -52,9 +52,6 @@ pub struct Sums<'a, const D: usize> {
 }
 
 /// As [`interactions`], with further scalars, for terms that have [`declared`] their columns.
-///
-/// # Errors
-/// If a term misses a column.
 pub fn all_sums<const D: usize>(
     world: &World<D>,
     declared: &[Access],
@@ -106,7 +103,6 @@ pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
     }
 }
 
-/// A sweep without terms.
 struct NoTerms;
 
 impl<const D: usize> RowTerm<D> for NoTerms {
@@ -129,9 +125,6 @@ impl<const D: usize> RowTerm<D> for TermChain<'_, D> {
 }
 
 /// The sweep for a kernel and a term known by type or as objects.
-///
-/// # Errors
-/// If the world has no positions.
 pub fn interactions_with<const D: usize, K, T>(
     world: &World<D>,
     kernel: &K,
@@ -202,9 +195,6 @@ fn blocks_of<T: Send>(
 }
 
 /// Accelerations that one term alone gives the particles that are `wanted`; zero for the others.
-///
-/// # Errors
-/// If the term misses a column.
 pub fn accelerations_of<const D: usize>(
     world: &World<D>,
     term: &dyn Interaction<D>,
@@ -224,10 +214,8 @@ pub fn accelerations_of<const D: usize>(
     })
 }
 
-/// Buffers of a thread, and the rates of its block.
 pub(crate) type TaskScratch<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
 
-/// Input of a walk over neighbourhoods.
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
     around: Surroundings<'a, D>,
     kernel: &'a K,
@@ -243,7 +231,6 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         })
     }
 
-    /// Number of particles.
     pub fn particles(&self) -> usize {
         self.around.particles()
     }

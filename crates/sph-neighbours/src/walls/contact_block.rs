@@ -36,7 +36,6 @@ struct Run<const D: usize> {
 pub struct ContactBlock<const D: usize> {
     runs: Vec<Run<D>>,
     elements: Vec<u32>,
-    /// |∇γ_as|, 1/m.
     weights: Vec<f64>,
     /// Weights of corners, 0 at the centre of an element; none in the plane.
     corners: Vec<[f64; D]>,
@@ -51,7 +50,6 @@ impl<const D: usize> ContactBlock<D> {
         self.resize(0);
     }
 
-    /// Room for a number of contacts.
     #[inline(always)]
     fn resize(&mut self, contacts: usize) {
         self.elements.resize(contacts, 0);
@@ -165,7 +163,6 @@ impl<const D: usize> ContactBlock<D> {
     }
 }
 
-/// The weights of corners, if there are any.
 #[inline(always)]
 fn weighted<const D: usize>(corners: Option<&[f64; D]>) -> Option<[f64; D]> {
     corners.copied().filter(|of| *of != [0.0; D])

@@ -20,7 +20,6 @@ pub struct WallForce<const D: usize> {
 }
 
 impl<const D: usize> WallForce<D> {
-    /// The same number in all components of forces and moments.
     fn repeat(number: f64) -> Self {
         WallForce {
             force: Vect::repeat(number),
@@ -102,7 +101,6 @@ pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
     ]
 }
 
-/// Adds a moment, component by component.
 pub(crate) fn add_moment(sum: &mut [f64; 3], more: [f64; 3]) {
     sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
 }

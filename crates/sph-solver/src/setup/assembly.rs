@@ -85,7 +85,6 @@ pub fn joined<const D: usize>(
     flow
 }
 
-/// Allocates every column that a planned stage touches.
 fn allocate<const D: usize>(flow: &mut Flow<D>) {
     let stages = &flow.columns.stages;
     let touched = stages

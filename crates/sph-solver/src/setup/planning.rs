@@ -116,7 +116,6 @@ impl<const D: usize> Planning<'_, D> {
         })
     }
 
-    /// Collects the offers of all parts in turn.
     fn offers(&self, parts: &mut [Part<D>]) -> Result<Offers<D>, SolverError> {
         let one = |(kind, part): &mut Part<D>| {
             let chosen = self.scene.choice(kind);
@@ -152,7 +151,6 @@ impl<const D: usize> Planning<'_, D> {
         self.shown.iter().any(|name| name == field.name)
     }
 
-    /// Columns that have to be computed.
     fn goals(&self, offer: &Offer<D>, stages: &[Work<D>], later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
         goals.extend(later);
@@ -188,14 +186,12 @@ impl<const D: usize> Planning<'_, D> {
     }
 }
 
-/// The stages that are offered.
 fn offered<const D: usize>(offers: &mut Offers<D>) -> impl Iterator<Item = Work<D>> {
     let offers = offers.iter_mut();
     let stages = offers.flat_map(|(_, offer)| offer.stages.drain(..));
     stages.map(Work::Stage)
 }
 
-/// Columns that hooks and gates read.
 fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyField> {
     let hooks = offer.hooks.iter().map(|h| h.access());
     let gates = offer.gates.iter().map(|g| g.access());

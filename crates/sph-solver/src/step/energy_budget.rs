@@ -14,7 +14,6 @@ use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 /// Particles that one thread takes at least.
 const BATCH: usize = 1024;
 
-/// An account: the column of the work of one part.
 type Account = Field<Scalar>;
 
 /// The account of a work of this project.
@@ -71,7 +70,6 @@ pub struct EnergyBudget<const D: usize> {
     classes: Vec<Account>,
     /// Account of the work of every hook, in their order.
     hooks: Vec<Account>,
-    /// The number of the hook that kicks, if there is one.
     kicker: Option<usize>,
     /// Velocities before the kick, m/s.
     before: Vec<Vect<D>>,
@@ -89,7 +87,6 @@ pub struct EnergyBudget<const D: usize> {
     unused: Vec<Vect<D>>,
 }
 
-/// Adds work to a column of the books.
 fn add_work<const D: usize>(
     world: &mut World<D>,
     field: Field<Scalar>,
@@ -328,7 +325,6 @@ impl<const D: usize> EnergyBudget<D> {
         add_work(world, of, &work)
     }
 
-    /// Books velocities that were changed.
     fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;

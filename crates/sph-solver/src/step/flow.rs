@@ -55,15 +55,12 @@ pub struct Flow<const D: usize> {
     pub gates: Vec<Box<dyn Gate<D>>>,
     /// Energy that particles store.
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
-    /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
-    /// Declarations of all of these.
     pub(crate) columns: Columns,
     /// True if particles moved since the last evaluation.
     pub moved: bool,
     /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
-    /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: KeptRates<D>,
@@ -73,7 +70,6 @@ pub struct Flow<const D: usize> {
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub kinematic_viscosities: Vec<f64>,
-    /// The pair terms of the interaction sweep.
     pub(crate) terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The plugin of every term, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
@@ -141,7 +137,6 @@ impl<const D: usize> Flow<D> {
 }
 
 impl<const D: usize> Flow<D> {
-    /// Runs the hooks of a phase, in their order.
     pub(crate) fn run_hooks(&mut self, phase: StepPhase, dt: f64) -> Result<(), StepError> {
         for n in 0..self.hooks.during(phase).len() {
             let k = self.hooks.during(phase)[n];
@@ -197,7 +192,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Shows the flow to the observers at a boundary within a step.
     pub(crate) fn observe(&mut self, at: Boundary, dt: f64) -> Result<(), StepError> {
         let mut seen = ObservedFlow {
             world: &mut self.world,
@@ -306,14 +300,6 @@ impl<const D: usize> Flow<D> {
         self.reports().filter_map(keyed).collect()
     }
 
-    /// Particles behind a wall.
-    ///
-    /// # Errors
-    /// If there is no position column.
-    pub fn escaped(&self) -> Result<usize, StepError> {
-        self.escaped_from(self.walls.as_deref())
-    }
-
     /// Particles behind one of these walls.
     pub fn escaped_from(&self, walls: Option<&dyn Wall<D>>) -> Result<usize, StepError> {
         let Some(walls) = walls else {
@@ -336,7 +322,6 @@ impl<const D: usize> Flow<D> {
         (!constant.is_empty()).then_some(range)
     }
 
-    /// Names of the columns that the stages of the plan write.
     pub(crate) fn written_by_stages(&self) -> Vec<&'static str> {
         let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
         writes.map(|f| f.name).collect()

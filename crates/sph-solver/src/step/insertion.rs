@@ -60,7 +60,6 @@ impl<const D: usize> Flow<D> {
         self.begin_density(nursery, first)
     }
 
-    /// Refuses impossible particles.
     fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
         let sound = newborn.mass > 0.0
             && newborn.mass.is_finite()
@@ -83,7 +82,6 @@ impl<const D: usize> Flow<D> {
         Err(StepError::stage("births", why))
     }
 
-    /// Gives newborn particles their columns.
     fn fill(
         &mut self,
         nursery: &NewParticleDefaults<D>,

@@ -9,7 +9,6 @@ use sph_scene::Scene;
 use crate::Flow;
 use crate::step::outlets::OutletTotals;
 
-/// A particle that leaves.
 struct LeavingParticle<const D: usize> {
     identity: u32,
     /// Number of the count in which it is.
@@ -64,7 +63,6 @@ impl<const D: usize> Flow<D> {
         self.world.free.set_removed(taken);
     }
 
-    /// Takes out particles that gates let out, and counts them.
     fn by_gates(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
         for k in 0..self.gates.len() {
@@ -97,7 +95,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Takes out particles in an outlet.
     fn by_outlets(&mut self, dt: f64) -> Result<(), StepError> {
         let (all, border) = (&self.outlets.all, self.outlets.border);
         if all.is_empty() && border.is_none() {

@@ -4,7 +4,6 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
-/// The walls, and the loads of their movers.
 pub(crate) type MovedWalls<'a, const D: usize> = (
     Option<&'a mut (dyn Wall<D> + 'static)>,
     &'a mut Vec<WallForce<D>>,

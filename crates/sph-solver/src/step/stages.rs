@@ -92,14 +92,11 @@ impl<const D: usize> Declares for Work<D> {
 
 /// All pair terms in one walk.
 pub struct InteractionSweep<const D: usize> {
-    /// The terms, fused where a fusion is registered.
     terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The column that density diffusion changes, if there is any.
     diffused: Option<Diffused>,
-    /// True if walls exist.
     walls: bool,
     declared: Vec<Access>,
-    /// Buffer of rates that terms sum besides.
     more: Vec<[f64; TRANSPORTED]>,
 }
 
@@ -138,7 +135,6 @@ impl<const D: usize> InteractionSweep<D> {
         all_sums(world, &self.declared, &self.terms, sums)
     }
 
-    /// Rates into their columns.
     fn spread(&self, world: &mut World<D>) -> Result<(), StepError> {
         for (slot, field) in world.transported.iter().enumerate() {
             let rates = world.free.get_mut(field.scalar())?.par_iter_mut();

@@ -9,7 +9,6 @@ use sph_core::{AnyField, Recall, StepError, StepLimit, System, fields};
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, writes_any};
 
-/// The motions of [`System`].
 enum Motion {
     Evaluate,
     EvaluateForces,
