@@ -85,8 +85,7 @@ impl LevelGrid {
                     ([from, (from + 1) % count], steps - whole)
                 }
                 false => {
-                    let last = count.saturating_sub(2);
-                    let from = (steps.max(0.0) as usize).min(last);
+                    let from = (steps.max(0.0) as usize).min(count.saturating_sub(2));
                     let share = (steps - from as f64).clamp(0.0, 1.0);
                     ([from, (from + 1).min(count - 1)], share)
                 }
@@ -195,15 +194,13 @@ impl Bed {
         if !self.grid.has(at) {
             return 0.0;
         }
-        let height = drawn[D - 1] - self.grid.mean(&self.drawn, at);
-        self.grid.mean(&self.lift, at) * self.share(height)
+        self.grid.mean(&self.lift, at) * self.share(drawn[D - 1] - self.grid.mean(&self.drawn, at))
     }
 
     /// True if a point of the walls that was drawn somewhere follows the bed.
     pub fn moves<const D: usize>(&self, drawn: &[f64; D]) -> bool {
         let at = horizontal(drawn);
-        let height = drawn[D - 1] - self.grid.mean(&self.drawn, at);
-        self.grid.has(at) && self.share(height) > 0.0
+        self.grid.has(at) && self.share(drawn[D - 1] - self.grid.mean(&self.drawn, at)) > 0.0
     }
 
     /// The upward velocity of a point of the walls at its present position, m/s.
@@ -243,8 +240,7 @@ impl Bed {
     /// Takes the values of [`numbers`](Self::numbers); the rest of the numbers, or none if there are too few or
     /// impossible ones.
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
-        let count = self.lift.len();
-        let (own, rest) = numbers.split_at_checked(6 * count + 3)?;
+        let (own, rest) = numbers.split_at_checked(6 * self.lift.len() + 3)?;
         if !own.iter().all(|x| x.is_finite()) {
             return None;
         }

@@ -67,8 +67,7 @@ impl<const D: usize> BoxTree<D> {
             return;
         }
         let side = |k: usize| high[k] - low[k];
-        let axes = 0..D;
-        let axis = axes.rev().max_by(|a, b| side(*a).total_cmp(&side(*b)));
+        let axis = (0..D).rev().max_by(|a, b| side(*a).total_cmp(&side(*b)));
         let axis = axis.unwrap_or(0);
         let at = |b: &u32| middle(&self.boxes[*b as usize], *b as usize, axis);
         let ascending = |a: &u32, b: &u32| at(a).total_cmp(&at(b)).then(a.cmp(b));

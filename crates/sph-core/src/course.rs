@@ -142,8 +142,7 @@ impl Course {
         match self {
             Self::Steady { speed } => Stage::new(speed * t, *speed, 0.0),
             Self::Ramp { speed, over } if t < *over => {
-                let value = 0.5 * speed * t * t / over;
-                Stage::new(value, speed * t / over, speed / over)
+                Stage::new(0.5 * speed * t * t / over, speed * t / over, speed / over)
             }
             Self::Ramp { speed, over } => Stage::new(speed * (t - 0.5 * over), *speed, 0.0),
             Self::Sum { parts, ramp } => sines(parts, *ramp, t),

@@ -4,26 +4,6 @@ use nalgebra::SMatrix;
 
 use crate::{Symmetric, Vect};
 
-/// One real number per particle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scalar;
-
-/// One vector of D components per particle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Vector;
-
-/// One unsigned integer per particle (identity, phase).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Index;
-
-/// One D × D tensor per particle (a velocity gradient).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tensor;
-
-/// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SymmetricTensor;
-
 /// A column of one of the supported types.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column<const D: usize> {
@@ -175,7 +155,10 @@ impl Shape {
 }
 
 macro_rules! kind {
-    ($kind:ident, $item:ty) => {
+    ($(#[$doc:meta])+ $kind:ident, $item:ty) => {
+        $(#[$doc])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $kind;
         impl Kind for $kind {
             type Item<const D: usize> = $item;
             fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>> {
@@ -196,11 +179,26 @@ macro_rules! kind {
         }
     };
 }
-kind!(Scalar, f64);
-kind!(Vector, Vect<D>);
-kind!(Index, u32);
-kind!(Tensor, SMatrix<f64, D, D>);
-kind!(SymmetricTensor, Symmetric);
+kind!(
+    /// One real number per particle.
+    Scalar, f64
+);
+kind!(
+    /// One vector of D components per particle.
+    Vector, Vect<D>
+);
+kind!(
+    /// One unsigned integer per particle (identity, phase).
+    Index, u32
+);
+kind!(
+    /// One D × D tensor per particle (a velocity gradient).
+    Tensor, SMatrix<f64, D, D>
+);
+kind!(
+    /// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
+    SymmetricTensor, Symmetric
+);
 
 /// A typed name for a column: `Field<Scalar>`, `Field<Vector>` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

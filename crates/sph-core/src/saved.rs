@@ -7,8 +7,8 @@ use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};
 #[derive(Clone, Debug, Default)]
 pub struct Saved<const D: usize> {
     len: usize,
-    taken: Vec<Removed>,
-    born: Inserted,
+    removed: Vec<Removed>,
+    inserted: Inserted,
     columns: Vec<(&'static str, Column<D>)>,
 }
 
@@ -42,8 +42,8 @@ impl<const D: usize> Store<D> {
             same.then_some(()).ok_or(FieldError::Type(entry.name))?;
         }
         saved.len = self.len;
-        saved.taken.clone_from(&self.taken);
-        saved.born = self.born;
+        saved.removed.clone_from(&self.removed);
+        saved.inserted = self.inserted;
         Ok(())
     }
 
@@ -51,8 +51,8 @@ impl<const D: usize> Store<D> {
     /// columns that have come since become zero; derived ones have to be computed anew.
     pub fn restore_state(&mut self, saved: &Saved<D>) -> Result<(), FieldError> {
         self.set_len(saved.len);
-        self.taken.clone_from(&saved.taken);
-        self.born = saved.born;
+        self.removed.clone_from(&saved.removed);
+        self.inserted = saved.inserted;
         self.put_state(saved, None, |_| true)
     }
 
@@ -102,7 +102,7 @@ mod tests {
         *store.get_mut(fields::IDENTITY).unwrap() = vec![0, 1, 2];
         let mut saved = Saved::default();
         store.save_state(&mut saved).unwrap();
-        store.permute(&[2, 0, 1]);
+        store.permute(Role::State, &[2, 0, 1]);
         store.get_mut(fields::MASS).unwrap().fill(9.0);
         store.get_mut(fields::DENSITY).unwrap().fill(9.0);
         store.add(fields::PRESSURE, Role::State);

@@ -37,8 +37,10 @@ impl<const D: usize> Entry<D> {
 pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
-    pub(crate) taken: Vec<Removed>,
-    pub(crate) born: Inserted,
+    /// Particles taken out so far, by outlet and phase.
+    pub removed: Vec<Removed>,
+    /// Particles born so far.
+    pub inserted: Inserted,
     pub(crate) watch: Watch,
     /// A column of each type to sort into: allocated when particles of such a column are first sorted.
     pub(crate) spare: Vec<Column<D>>,
@@ -221,17 +223,9 @@ impl<const D: usize> Store<D> {
         Ok(())
     }
 
-    /// Sorts every state column: entry `k` becomes the old entry `order[k]`. Derived ones are left as they are, to be computed anew.
-    pub fn permute(&mut self, order: &[u32]) {
-        self.permute_role(Role::State, order);
-    }
-
-    /// Sorts the derived columns as [`Store::permute`] has sorted the state, for work that goes on with them.
-    pub fn permute_derived(&mut self, order: &[u32]) {
-        self.permute_role(Role::Derived, order);
-    }
-
-    fn permute_role(&mut self, role: Role, order: &[u32]) {
+    /// Sorts all columns of a role: entry `k` becomes the old entry `order[k]`. Derived ones are mostly left as they are,
+    /// to be computed anew.
+    pub fn permute(&mut self, role: Role, order: &[u32]) {
         for entry in self.entries.iter_mut().filter(|e| e.role == role) {
             let spare = &mut self.spare;
             let place = (0..spare.len()).find(|k| spare[*k].copy(&entry.column, Some(order)));

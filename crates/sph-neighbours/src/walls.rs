@@ -163,8 +163,9 @@ impl<const D: usize> Frame<D> {
     /// Rᵀ times a vector: from now to where the wall was drawn.
     pub fn turned_back(&self, present: &Vect<D>) -> Vect<D> {
         let column = |k: usize| {
-            let parts = (0..D).map(|i| self.rotation[i][k] * present[i]);
-            parts.sum::<f64>()
+            (0..D)
+                .map(|i| self.rotation[i][k] * present[i])
+                .sum::<f64>()
         };
         Vect::from_fn(|k, _| column(k))
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Scalar, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
@@ -149,7 +149,7 @@ impl<const D: usize> World<D> {
     /// The same for particles whose [order](Self::order) is known.
     pub fn rebuild_lists_in(&mut self, order: Option<&[u32]>) -> Result<(), FieldError> {
         if let Some(order) = order {
-            self.free.permute(order);
+            self.free.permute(Role::State, order);
         }
         let lists = &mut self.lists;
         let [mut positions, mut points] =
@@ -166,11 +166,10 @@ impl<const D: usize> World<D> {
     pub fn sort(&mut self) -> Result<(), FieldError> {
         self.wrap()?;
         if let Some(order) = self.order()? {
-            self.free.permute(&order);
+            self.free.permute(Role::State, &order);
         }
         let places = self.free.get(fields::POSITION)?.to_vec();
-        let points = self.walls.points.position.clone();
-        self.lists_would_be_of(places, points, self.time);
+        self.lists_would_be_of(places, self.walls.points.position.clone(), self.time);
         Ok(())
     }
 

@@ -106,8 +106,7 @@ impl<const D: usize> OwnedElements<'_, D> {
         let support = world.kernel.support_radius().powi(2);
         let all = places.iter().flat_map(|(place, candidates)| {
             let near = move |j: &usize| {
-                let apart = world.domain.nearest_image(position[*j] - *place);
-                apart.norm_squared() < support
+                (world.domain.nearest_image(position[*j] - *place)).norm_squared() < support
             };
             candidates.iter().map(|j| *j as usize).filter(near)
         });

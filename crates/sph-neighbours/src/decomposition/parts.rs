@@ -56,7 +56,7 @@ impl<const D: usize> Parts<D> {
         let reference = world.lists.reference.clone();
         let particles = reference.len();
         if ranks > particles {
-            return Err(DecompositionError::TooManyRanks { ranks, particles }.into());
+            return Err(DecompositionError::TooManyRanks(ranks, particles).into());
         }
         let cuts = match Thread::communicator(1).first() {
             Some(alone) => Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?,
@@ -188,7 +188,7 @@ impl<const D: usize> Parts<D> {
         world.extent = Some(self.extent(&places)?);
         let order = world.order()?;
         if let Some(order) = &order {
-            world.free.permute_derived(order);
+            world.free.permute(Role::Derived, order);
         }
         let sends = sorted(sends, order.as_deref(), own);
         world.rebuild_lists_in(order.as_deref())?;
@@ -268,8 +268,7 @@ impl<const D: usize> Parts<D> {
         let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
             let first = free.len();
-            let behind = first as u32..first as u32 + come[rank] as u32;
-            let slots: Vec<u32> = behind.collect();
+            let slots: Vec<u32> = (first as u32..first as u32 + come[rank] as u32).collect();
             free.set_len(first + slots.len());
             free.unpack(|_| true, &slots, &message)?;
         }

@@ -48,8 +48,7 @@ pub trait Transport: Send + Sync + Debug {
     /// The messages of all ranks, in their order.
     fn all(&self, own: &[u8]) -> Result<Vec<Vec<u8>>, TransportError> {
         let others = self.other_ranks();
-        let out = others.iter().map(|r| (*r, own.to_vec())).collect();
-        let mut all = self.swap(out, &others)?;
+        let mut all = self.swap(others.iter().map(|r| (*r, own.to_vec())).collect(), &others)?;
         all.insert(self.rank(), own.to_vec());
         Ok(all)
     }

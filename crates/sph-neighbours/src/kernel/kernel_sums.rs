@@ -92,8 +92,7 @@ pub fn kernel_sums<const D: usize>(
         room.inside = inside;
         n
     };
-    let pool = &world.lists.pools.pruned;
-    pruned.fill(&world.lists.free, sums, pool, cluster);
+    pruned.fill(&world.lists.free, sums, &world.lists.pools.pruned, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
 }

@@ -37,20 +37,16 @@ impl<const D: usize, const KEPT: bool> Body for Distances<'_, D, KEPT> {
 
     #[inline(always)]
     fn call<L: Lane>(self) {
-        let Members {
-            from,
-            count,
-            candidates,
-        } = self.members;
-        let needed = candidates.len() * L::N;
+        let members = self.members;
+        let needed = members.candidates.len() * L::N;
         grow(self.out, needed);
         let out = &mut self.out[..needed];
         if KEPT {
             grow(self.separations, D * needed);
         }
         let mut kept = self.separations.chunks_exact_mut(D * L::N);
-        let x = Particles::from(self.members).vectors::<D, L>(self.positions);
-        for (&j, out) in candidates.iter().zip(out.chunks_exact_mut(L::N)) {
+        let x = Particles::from(members).vectors::<D, L>(self.positions);
+        for (&j, out) in members.candidates.iter().zip(out.chunks_exact_mut(L::N)) {
             let mut apart = minus(&x, &self.positions[j as usize]);
             if let Some(domain) = self.domain {
                 apart = domain.nearest_images(apart);
@@ -61,8 +57,8 @@ impl<const D: usize, const KEPT: bool> Body for Distances<'_, D, KEPT> {
                 }
             }
             dot(&apart, &apart).store(out);
-            let lane = (j as usize).wrapping_sub(from);
-            if lane < count {
+            let lane = (j as usize).wrapping_sub(members.from);
+            if lane < members.count {
                 out[lane] = f64::INFINITY;
             }
         }

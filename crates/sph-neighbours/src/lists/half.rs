@@ -32,16 +32,10 @@ impl SweepHalf {
             ..self
         }
     }
-
-    /// True if a particle is requested.
-    #[inline]
-    pub fn includes(&self, particle: usize) -> bool {
-        self.edge[particle] != self.inner
-    }
 }
 
 /// True if a particle is needed: all are outside of halves.
 #[inline]
 pub fn is_wanted(half: Option<&SweepHalf>, particle: usize) -> bool {
-    half.is_none_or(|half| half.includes(particle))
+    half.is_none_or(|half| half.edge[particle] != half.inner)
 }

@@ -175,10 +175,8 @@ fn angle<const D: usize>(world: &World<D>, element: usize, at: usize) -> f64 {
     let (elements, points) = (&world.walls.elements, &world.walls.points.position);
     let centre = elements.centre[element];
     let to_centre = world.domain.nearest_image(centre - elements.centre[at]);
-    let corners = elements.corners[element].map(|c| {
-        let corner = points[c as usize] - centre;
-        to_centre + world.domain.nearest_image(corner)
-    });
+    let corners = elements.corners[element]
+        .map(|c| to_centre + world.domain.nearest_image(points[c as usize] - centre));
     let size = match &corners[..] {
         [a, b] => 2.0 * cross(a, b)[2].abs().atan2(a.dot(b)),
         [a, b, c] => {

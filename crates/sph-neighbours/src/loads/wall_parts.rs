@@ -232,8 +232,7 @@ impl<const D: usize> Piece<D> {
         // The part of 1 − γ that a plane leaves falls from ½ at d = 0 as |∇γ| (R − d) does, within a factor of two; planes
         // that look away take it off.
         let deficit = all(&contacts).iter().map(|c| {
-            let within = (support - c.distance.abs()).max(0.0);
-            (c.gradient.norm() * within).copysign(c.distance)
+            (c.gradient.norm() * (support - c.distance.abs()).max(0.0)).copysign(c.distance)
         });
         Piece {
             wall,

@@ -136,11 +136,9 @@ impl<const D: usize> Cluster<'_, D> {
     /// Leaves w, 1/m^d, in the same order in a buffer; 0 beyond the support and for a particle and itself.
     pub(crate) fn weigh<K: Sampler + ?Sized>(&mut self, kernel: &K) {
         let needed = self.members.candidates.len() * self.lanes();
-        let Buffers {
-            distance2, value, ..
-        } = &mut *self.buffers;
-        grow(value, needed);
-        kernel.value(&distance2[..needed], &mut value[..needed]);
+        let buffers = &mut *self.buffers;
+        grow(&mut buffers.value, needed);
+        kernel.value(&buffers.distance2[..needed], &mut buffers.value[..needed]);
     }
 
     /// Calls `visit` with the number and the neighbourhood of every member, one after the other.

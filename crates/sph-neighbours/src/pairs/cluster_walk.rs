@@ -111,8 +111,7 @@ impl<const D: usize, const M: usize, P: PairNumbers<D, M>> Body
         let own = self.pairs.own::<L>(members.into());
         let all = members.candidates.iter().enumerate();
         for ((k, &j), out) in all.zip(self.out.chunks_exact_mut(M * L::N)) {
-            let pair = self.cluster.pair(k);
-            let numbers = self.pairs.numbers(&own, j as usize, &pair);
+            let numbers = self.pairs.numbers(&own, j as usize, &self.cluster.pair(k));
             for (number, out) in numbers.into_iter().zip(out.chunks_exact_mut(L::N)) {
                 number.store(out);
             }
@@ -139,8 +138,7 @@ pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
             let mut rows = std::mem::take(&mut cluster.buffers.sums);
             sum_cluster(sum, cluster, &mut rows);
             for (k, i) in cluster.members().enumerate().filter(|(_, i)| wanted(*i)) {
-                let sum = S::Sum::<f64>::one(&rows, k);
-                out[i - block * CHUNK] = of(sum, &cluster.walls(k));
+                out[i - block * CHUNK] = of(S::Sum::<f64>::one(&rows, k), &cluster.walls(k));
             }
             cluster.buffers.sums = rows;
         });

@@ -125,15 +125,7 @@ impl<const D: usize> Body for Split<'_, '_, D> {
 
     #[inline(always)]
     fn call<L: Lane>(self) -> Self::Output {
-        let Split {
-            cluster,
-            numbers,
-            factor,
-            weak,
-            kinds,
-            kept,
-        } = self;
-        let own = cluster.members();
+        let own = self.cluster.members();
         let zero = L::splat(0.0);
         // Lanes without a particle repeat the last one, which is near itself: their numbers are not used.
         let mut real = [0.0; MOST];
@@ -141,17 +133,17 @@ impl<const D: usize> Body for Split<'_, '_, D> {
         let real = L::load(&real);
         let mut limits = [0.0; MOST];
         let mut velocity = [zero; D];
-        if let Some(weak) = weak {
+        if let Some(weak) = self.weak {
             velocity = places::<D, L>(&weak.velocity[own.clone()]);
             limits[..own.len()].copy_from_slice(&weak.limit[own.clone()]);
         }
         let limit = L::load(&limits);
         let mut blocks = [[zero; D]; D];
         let mut force = [zero; D];
-        let each = kinds.count() * L::N;
+        let each = self.kinds.count() * L::N;
         let mut place = [0.0; 2 * MOST];
-        let numbers = numbers.chunks_exact(3 * L::N);
-        for (k, (&column, numbers)) in cluster.candidates().iter().zip(numbers).enumerate() {
+        let numbers = self.numbers.chunks_exact(3 * L::N);
+        for (k, (&column, numbers)) in self.cluster.candidates().iter().zip(numbers).enumerate() {
             let norm = real.where_positive(L::load(&numbers[2 * L::N..]), zero);
             // Half of a cluster's candidates are beyond the support of any one member.
             if !norm.any_nonzero() {
@@ -161,9 +153,9 @@ impl<const D: usize> Body for Split<'_, '_, D> {
             // Without `map`, which is a call in some builds, and then for the least processor.
             let even = real.where_positive(L::load(numbers), zero);
             let along = real.where_positive(L::load(&numbers[L::N..]), zero);
-            let apart = cluster.separation::<L>(k);
+            let apart = self.cluster.separation::<L>(k);
             let mut softness = zero;
-            if let Some(weak) = weak {
+            if let Some(weak) = self.weak {
                 let there = L::splat(weak.limit[j]);
                 // No comparison with NaN is true: it is kept, and seen by the solver.
                 softness = (limit - there).where_positive(there, limit) - norm;
@@ -176,20 +168,20 @@ impl<const D: usize> Body for Split<'_, '_, D> {
                     rub(&mut force, soft, &relative, &apart);
                 }
             }
-            let factor = L::splat(factor);
+            let factor = L::splat(self.factor);
             let even = softness.where_positive(zero, even) * factor;
             let along = softness.where_positive(zero, along) * factor;
             if !(even.any_nonzero() || along.any_nonzero()) {
                 continue;
             }
-            kept.columns.push(column);
-            if kinds.even {
+            self.kept.columns.push(column);
+            if self.kinds.even {
                 even.store(&mut place);
             }
-            if kinds.along {
+            if self.kinds.along {
                 along.store(&mut place[each - L::N..]);
             }
-            kept.numbers.extend_from_slice(&place[..each]);
+            self.kept.numbers.extend_from_slice(&place[..each]);
             add_block(&mut blocks, [even, along], &apart);
         }
         // Copies: single lanes are read from memory.

@@ -149,7 +149,7 @@ pub fn walk_into<const D: usize, R: Send>(
 ) -> Result<(), StepError> {
     let surroundings = Surroundings::new(world)?;
     let kernel = &*world.kernel;
-    let one = |(rows, w): &mut TaskScratch<D>, i: usize| {
+    let one = |(rows, w): &mut (Rows<D>, [Vec<f64>; 2]), i: usize| {
         let rows = surroundings.neighbourhood(i, rows);
         if values == Values::Both {
             for (w, row) in w.iter_mut().zip([rows.free, rows.wall]) {
@@ -173,5 +173,3 @@ pub fn walk_into<const D: usize, R: Send>(
     });
     Ok(())
 }
-
-type TaskScratch<const D: usize> = (Rows<D>, [Vec<f64>; 2]);

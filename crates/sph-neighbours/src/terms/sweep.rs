@@ -154,16 +154,11 @@ where
     T: RowTerm<D> + ?Sized,
 {
     let sweep = Sweep::new(world, kernel)?;
-    let Sums {
-        acceleration,
-        scalar,
-        more,
-    } = sums;
-    let count = acceleration.len().div_ceil(CHUNK);
-    let more = Some(more).filter(|more| !more.is_empty());
-    let all = acceleration.par_chunks_mut(CHUNK);
+    let count = sums.acceleration.len().div_ceil(CHUNK);
+    let more = Some(sums.more).filter(|more| !more.is_empty());
+    let all = sums.acceleration.par_chunks_mut(CHUNK);
     let all = all
-        .zip(blocks_of(scalar, count))
+        .zip(blocks_of(sums.scalar, count))
         .zip(blocks_of(more, count));
     let room = || world.lists.pools.sweeps.acquire();
     all.enumerate()

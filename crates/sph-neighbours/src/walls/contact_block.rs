@@ -68,8 +68,7 @@ impl<const D: usize> ContactBlock<D> {
     /// Drops all planes but the first ones.
     pub fn truncate(&mut self, planes: u32) {
         self.runs.truncate(planes as usize);
-        let end = self.runs.last().map_or(0, |run| run.to as usize);
-        self.resize(end);
+        self.resize(self.runs.last().map_or(0, |run| run.to as usize));
     }
 
     /// Adds one contact for all that the particle sees of a face: the inward unit normal, the distance of the particle from
@@ -101,8 +100,7 @@ impl<const D: usize> ContactBlock<D> {
         shares: impl ExactSizeIterator<Item = (u32, f64)>,
     ) {
         let from = self.elements.len();
-        let most = from + shares.len();
-        self.resize(most);
+        self.resize(from + shares.len());
         // Without a branch for those that are left out.
         let (elements, weights) = (&mut self.elements[..], &mut self.weights[..]);
         let mut to = from;
@@ -185,8 +183,7 @@ impl<'a, const D: usize> ContactRow<'a, D> {
 
     /// Their number.
     pub fn len(&self) -> usize {
-        let each = self.runs.iter().map(|run| run.to - run.from);
-        each.sum::<u32>() as usize
+        (self.runs.iter().map(|run| run.to - run.from)).sum::<u32>() as usize
     }
 
     /// True if there are none.

@@ -302,10 +302,10 @@ fn give_places<const D: usize>(
         let of = placed.body.iter().map(|body| phases[*body as usize]);
         *free.get_mut(fields::PHASE)? = of.collect();
     }
-    free.set_inserted(Inserted {
+    free.inserted = Inserted {
         identities: count,
         ..Inserted::default()
-    });
+    };
     Ok(())
 }
 

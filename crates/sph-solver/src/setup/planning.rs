@@ -85,8 +85,7 @@ impl<const D: usize> Planning<'_, D> {
             riding.extend(offer.riding.iter().map(|(_, t)| (t.name(), kind)));
             remedies.extend(offer.remedy.take().map(|remedy| (kind, remedy)));
             let kicking = hooks.kicking.len();
-            let own = offer.hooks.drain(..);
-            own.for_each(|hook| hooks.add(kind, hook));
+            offer.hooks.drain(..).for_each(|hook| hooks.add(kind, hook));
             if hooks.kicking.len() > kicking {
                 // Forces of kicks act before those that follow.
                 std::mem::swap(&mut all.outside, &mut offer.outside);
@@ -95,8 +94,7 @@ impl<const D: usize> Planning<'_, D> {
         }
         remedies.append(&mut all.remedies_of_failures);
         kinds.append(&mut riding);
-        let last = all.riding.drain(..).map(|(_, term)| term);
-        all.terms.extend(last);
+        all.terms.extend(all.riding.drain(..).map(|(_, term)| term));
         let transported = transported_by(&all.terms)?;
         let terms: SharedTerms<D> = std::mem::take(&mut all.terms).into();
         let changed = all.changes_density.then_some(self.diffused);
@@ -187,8 +185,9 @@ impl<const D: usize> Planning<'_, D> {
 }
 
 fn offered<const D: usize>(offers: &mut Offers<D>) -> impl Iterator<Item = Work<D>> {
-    let offers = offers.iter_mut();
-    let stages = offers.flat_map(|(_, offer)| offer.stages.drain(..));
+    let stages = offers
+        .iter_mut()
+        .flat_map(|(_, offer)| offer.stages.drain(..));
     stages.map(Work::Stage)
 }
 
@@ -205,8 +204,7 @@ fn transported_by<const D: usize>(
     let mut all: Vec<AnyField> = Vec::new();
     for field in terms.iter().flat_map(|t| t.access().writes) {
         if field.shape != Shape::Scalar {
-            let name = field.name;
-            let why = format!("a pair term writes `{name}`, which is no scalar");
+            let why = format!("a pair term writes `{}`, which is no scalar", field.name);
             return Err(SolverError::at("", why));
         }
         if !all.contains(&field) {

@@ -329,8 +329,7 @@ impl<const D: usize> EnergyBudget<D> {
         let mass = world.free.get(fields::MASS)?;
         let now = world.free.get(fields::VELOCITY)?;
         let gain = per_particle(now.len(), |i| {
-            let squares = now[i].norm_squared() - self.velocity[i].norm_squared();
-            0.5 * mass[i] * squares
+            0.5 * mass[i] * (now[i].norm_squared() - self.velocity[i].norm_squared())
         });
         now.to_vec().clone_into(&mut self.velocity);
         add_work(world, of, &gain)

@@ -185,8 +185,7 @@ impl<const D: usize> Flow<D> {
             on_walls: &mut self.on_walls,
         };
         let done = work(&mut **hook, &mut moment);
-        let ended = self.world.free.unwatch(|| hook.name());
-        ended.and(done)?;
+        self.world.free.unwatch(|| hook.name()).and(done)?;
         self.world.refresh(access)?;
         self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
         Ok(())

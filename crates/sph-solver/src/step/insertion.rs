@@ -50,7 +50,7 @@ impl<const D: usize> Flow<D> {
         for newborn in all {
             self.refuse(newborn)?;
         }
-        let first = self.world.free.inserted().identities;
+        let first = self.world.free.inserted.identities;
         self.fill(nursery, all)?;
         // Where they are follows from their places alone, whatever the order in which they were born.
         self.refresh_lists_and_derived()?;
@@ -94,9 +94,8 @@ impl<const D: usize> Flow<D> {
             let places: Vec<_> = all.iter().map(|n| n.position).collect();
             parts.house(free, slots.clone(), &places)?;
         }
-        let mut born = free.inserted();
         for (slot, newborn) in slots.clone().zip(all) {
-            born.mass += newborn.mass;
+            free.inserted.mass += newborn.mass;
             free.get_mut(fields::POSITION)?[slot] = newborn.position;
             free.get_mut(fields::VELOCITY)?[slot] = newborn.velocity;
             free.get_mut(fields::MASS)?[slot] = newborn.mass;
@@ -105,7 +104,6 @@ impl<const D: usize> Flow<D> {
                 free.get_mut(fields::PHASE)?[slot] = newborn.phase;
             }
         }
-        free.set_inserted(born);
         for column in &nursery.columns {
             for (slot, newborn) in slots.clone().zip(all) {
                 let birth = Birth {

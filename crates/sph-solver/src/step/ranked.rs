@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_core::{Slots, StepError, StepLimit, fields};
+use sph_core::{Role, Slots, StepError, StepLimit, fields};
 use sph_neighbours::World;
 use sph_neighbours::decomposition::{PartError, Parts, Transport};
 
@@ -122,7 +122,7 @@ impl<const D: usize> Flow<D> {
         }
         let slots = Slots::from_identities(&earlier);
         let order: Vec<u32> = now.iter().filter_map(|&id| slots.slot(id)).collect();
-        self.world.free.permute_derived(&order);
+        self.world.free.permute(Role::Derived, &order);
         Ok(())
     }
 }

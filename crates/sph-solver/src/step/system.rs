@@ -38,33 +38,24 @@ fn space(flow: &mut Flow<3>, motion: Motion) -> Result<(), StepError> {
     flow.perform(motion)
 }
 
+/// Methods that each perform a motion.
+macro_rules! motions {
+    ($($method:ident($($value:ident: $type:ty)?) => $motion:expr;)+) => {$(
+        fn $method(&mut self $(, $value: $type)?) -> Result<(), StepError> {
+            perform(self, $motion)
+        }
+    )+};
+}
+
 impl<const D: usize> System for Flow<D> {
-    fn evaluate(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::Evaluate)
-    }
-
-    fn evaluate_forces(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::EvaluateForces)
-    }
-
-    fn keep(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::Keep)
-    }
-
-    fn recall(&mut self, what: Recall) -> Result<(), StepError> {
-        perform(self, Motion::Recall(what))
-    }
-
-    fn average_rates(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::AverageRates)
-    }
-
-    fn kick(&mut self, dt: f64) -> Result<(), StepError> {
-        perform(self, Motion::Kick(dt))
-    }
-
-    fn drift(&mut self, dt: f64) -> Result<(), StepError> {
-        perform(self, Motion::Drift(dt))
+    motions! {
+        evaluate() => Motion::Evaluate;
+        evaluate_forces() => Motion::EvaluateForces;
+        keep() => Motion::Keep;
+        recall(what: Recall) => Motion::Recall(what);
+        average_rates() => Motion::AverageRates;
+        kick(dt: f64) => Motion::Kick(dt);
+        drift(dt: f64) => Motion::Drift(dt);
     }
 
     fn time(&self) -> f64 {
