@@ -28,8 +28,7 @@ pub enum Course {
     /// Values at instants less the first value, joined by the cubic whose slopes are those of the
     /// parabolas through three neighbouring values; at rest before the first and after the last.
     Table {
-        /// Pairs of time, s, and value, ascending in time.
-        /// Shared by the pieces that a wall is drawn in.
+        /// Pairs of time, s, and value, ascending in time. Shared by the pieces that a wall is drawn in.
         rows: Arc<[[f64; 2]]>,
     },
 }

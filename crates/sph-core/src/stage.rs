@@ -126,9 +126,8 @@ pub trait Stage<C>: Declares + Send {
     /// When a column is missing or a value is impossible; the step is then rolled back.
     fn run(&mut self, context: &mut C) -> Result<(), StepError>;
     /// The reason why it needs all particles at once, if it does: it adds up over all of them, or goes through their
-    /// neighbours' neighbours.
-    /// Otherwise it may run for some of them, with copies of others around, whose sums over neighbours come from their
-    /// owners after it.
+    /// neighbours' neighbours. Otherwise it may run for some of them, with copies of others around, whose sums over
+    /// neighbours come from their owners after it.
     fn needs_all(&self) -> Option<&'static str> {
         None
     }

@@ -127,8 +127,7 @@ impl<const D: usize> Elements<D> {
         })
     }
 
-    /// The centre of an element for given positions of the wall points, m; the corners may be
-    /// on two sides of a period.
+    /// The centre of an element for given positions of the wall points, m; the corners may be on two sides of a period.
     pub fn centre_from(&self, element: usize, points: &[Vect<D>], domain: &Domain<D>) -> Vect<D> {
         let corners = self.corners[element].map(|c| points[c as usize]);
         let apart = |c: Vect<D>| domain.nearest_image(c - corners[0]);

@@ -5,9 +5,8 @@ use sph_core::Vect;
 /// Force and moment of the fluid on one wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallForce<const D: usize> {
-    /// F = −Σ m a_w over the particles, a_w being the part of the acceleration that the wall
-    /// contributes, N (N/m in two dimensions). The momentum of the fluid changes by the weight
-    /// and −ΣF, to rounding.
+    /// F = −Σ m a_w over the particles, a_w being the part of the acceleration that the wall contributes, N (N/m in two
+    /// dimensions). The momentum of the fluid changes by the weight and −ΣF, to rounding.
     pub force: Vect<D>,
     /// −Σ r × m a_w about the origin, N m; only the last component in two dimensions.
     pub moment: [f64; 3],
