@@ -197,13 +197,9 @@ pub trait Makes<const D: usize>: Contract {
 pub fn typed<P: DeserializeOwned + JsonSchema>(table: &Table) -> Result<P, RegistryError> {
     let mut value = Value::Table(table.clone());
     conform(&mut value, &schema_of::<P>()).map_err(RegistryError::Parameters)?;
-    value
-        .try_into()
-        .map_err(|e: toml::de::Error| one_problem(e.message()))
-}
-
-fn one_problem(message: &str) -> RegistryError {
-    RegistryError::Parameters(vec![SceneProblem::new("", message)])
+    value.try_into().map_err(|e: toml::de::Error| {
+        RegistryError::Parameters(vec![SceneProblem::new("", e.message())])
+    })
 }
 
 /// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own

@@ -31,53 +31,9 @@ impl Access {
         Access::default()
     }
 
-    /// Adds columns read at the particle.
-    pub fn here(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.here, f));
-        self
-    }
-
-    /// Adds columns read at the particle and at its neighbours.
-    pub fn both(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| {
-            push(&mut self.here, f);
-            push(&mut self.neighbours, f);
-        });
-        self.sweep = true;
-        self
-    }
-
-    /// Adds columns read at the neighbours.
-    pub fn neighbours(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.neighbours, f));
-        self.sweep = true;
-        self
-    }
-
-    /// Adds columns written at the particle.
-    pub fn writes(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.writes, f));
-        self
-    }
-
-    /// Adds columns written at the particle that carry history.
-    pub fn remembers(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| {
-            push(&mut self.remembers, f);
-            push(&mut self.writes, f);
-        });
-        self
-    }
-
     /// The same columns, at neighbours of neighbours: `rings` times from a particle to its neighbours.
     pub fn rings(self, rings: usize) -> Self {
         Access { rings, ..self }
-    }
-
-    /// Adds columns that are read where a scene has them.
-    pub fn where_there(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.where_there, f));
-        self
     }
 
     /// Joins the accesses of two pieces of work done in one walk.
@@ -102,6 +58,36 @@ impl Access {
         self.neighbours.iter().for_each(|f| push(&mut all, *f));
         all
     }
+}
+
+/// Methods that add fields to lists.
+macro_rules! adders {
+    ($(#[doc = $doc:literal] $name:ident => [$($list:ident),+], sweep: $sweep:literal;)+) => {
+        impl Access {$(
+            #[doc = $doc]
+            pub fn $name(mut self, fields: impl FieldList) -> Self {
+                fields.for_each(|f| {$(
+                    push(&mut self.$list, f);
+                )+});
+                self.sweep |= $sweep;
+                self
+            }
+        )+}
+    };
+}
+adders! {
+    /// Adds columns read at the particle.
+    here => [here], sweep: false;
+    /// Adds columns read at the particle and at its neighbours.
+    both => [here, neighbours], sweep: true;
+    /// Adds columns read at the neighbours.
+    neighbours => [neighbours], sweep: true;
+    /// Adds columns written at the particle.
+    writes => [writes], sweep: false;
+    /// Adds columns written at the particle that carry history.
+    remembers => [remembers, writes], sweep: false;
+    /// Adds columns that are read where a scene has them.
+    where_there => [where_there], sweep: false;
 }
 
 fn push(list: &mut Vec<AnyField>, field: AnyField) {

@@ -67,7 +67,7 @@ pub use terms::term::{
 pub use walls::contact_block::{Contact, ContactBlock, ContactIter, ContactRow};
 pub use walls::contacts::Contacts;
 pub use walls::free_body::FreeBody;
-pub use walls::slopes::{Slope, Slopes};
+pub use walls::slopes::Slope;
 pub use walls::wall_force::{WallForce, cross};
 pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};
 pub use world::{Lists, World};

@@ -11,7 +11,7 @@ pub(crate) mod wall_force;
 use sph_core::Vect;
 use sph_core::bed::Bed;
 
-use crate::{Contact, Contacts, Domain, FreeBody, Slopes, WallForce};
+use crate::{Contact, Contacts, Domain, FreeBody, Slope, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -211,8 +211,8 @@ pub struct WallSet<const D: usize> {
     pub at_corners: bool,
     /// True if the walls scale the kernel.
     pub scales: bool,
-    /// ∇ ln s of every particle by wall, where walls scale the kernel.
-    pub slopes: Slopes<D>,
+    /// ∇ ln s of every particle by wall, in the order of the particles, where walls scale the kernel.
+    pub slopes: Vec<Slope<D>>,
     /// The pose of every wall, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.

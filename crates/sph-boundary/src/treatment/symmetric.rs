@@ -86,7 +86,8 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
             }
             world.free.put(fields::SCALE_RATE, rate)?;
         }
-        world.walls.slopes.renew(slopes);
+        world.walls.slopes.clear();
+        world.walls.slopes.extend(slopes);
         world.free.put(fields::SCALE, scale)?;
         Ok(world.free.put(fields::SCALE_SLOPE, slope)?)
     }

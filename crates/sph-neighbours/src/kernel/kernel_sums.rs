@@ -8,8 +8,8 @@ use crate::lanes::{particles::Rows, separation::Distances};
 use crate::lists::buffer::grow;
 use crate::lists::members::{Members, groups};
 use crate::{
-    CHUNK, Clusters, Domain, HiddenPairs, LanePair, PairSum, Particles, Scaling, WallPoints, World,
-    each_block, minus,
+    CHUNK, Clusters, Domain, HiddenPairs, LanePair, PairSum, Particles, Scaling, World, each_block,
+    minus,
 };
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
@@ -80,7 +80,9 @@ pub fn kernel_sums<const D: usize>(
                 if !row.is_empty() {
                     let x = &positions[i];
                     let w = room.row.fill(x, &points.position, row, domain(i), kernel);
-                    *sum += over_points(points, row, w, |v| f64::from(!unseen.has(i, v)));
+                    let seen = |v: u32| f64::from(!unseen.has(i, v));
+                    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
+                    *sum += w.iter().zip(shares).map(|(w, s)| w * s).sum::<f64>();
                 }
             }
         }
@@ -95,17 +97,6 @@ pub fn kernel_sums<const D: usize>(
     pruned.fill(&world.lists.free, sums, &world.lists.pools.pruned, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
-}
-
-/// Σ θ w over wall points that are seen.
-fn over_points<const D: usize>(
-    points: &WallPoints<D>,
-    row: &[u32],
-    w: &[f64],
-    seen: impl Fn(u32) -> f64,
-) -> f64 {
-    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
-    w.iter().zip(shares).map(|(w, share)| w * share).sum()
 }
 
 /// Σ w in every lane, and the particles within the support of any.

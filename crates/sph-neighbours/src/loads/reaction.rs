@@ -3,6 +3,7 @@
 use sph_core::{StepError, Vect, fields};
 
 use crate::loads::facing::facing_forces;
+use crate::walls::slopes::of_particle;
 use crate::{Interaction, WallForce, WallPart, World, wall_parts};
 
 /// Forces on the wanted ones of all walls, in the order of their names, at the state of the last sweep; NaN on the others.
@@ -56,7 +57,7 @@ pub fn reactions<const D: usize>(
         } else {
             lists.candidates(i)
         };
-        let mut slopes = walls.slopes.of_particle(i).iter();
+        let mut slopes = of_particle(&walls.slopes, i).iter();
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
             || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
             || slopes.any(|s| wanted[s.wall as usize])

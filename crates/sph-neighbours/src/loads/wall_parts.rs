@@ -7,6 +7,7 @@ use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::MOST;
 
 use crate::terms::sweep::{Sweep, with_all};
+use crate::walls::slopes::of_particle;
 use crate::{
     CHUNK, Cluster, ContactBlock, ContactRow, Contacts, Interaction, Neighbourhood, Rates, RowTerm,
     Scratch, World,
@@ -55,7 +56,7 @@ pub fn wall_parts<const D: usize>(
             .for_each(&mut ask),
         false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
     }
-    let slopes = world.walls.slopes.all().iter();
+    let slopes = world.walls.slopes.iter();
     slopes.for_each(|slope| ask(slope.particle as usize));
     let none = Contacts::default();
     let mut parts = Vec::new();
@@ -144,7 +145,7 @@ impl<const D: usize> SeparateWalls<D> {
             let of_contacts = own.contacts.elements().iter();
             let of_contacts = of_contacts.map(|s| set.elements.wall[*s as usize]);
             self.walls.clear();
-            let of_slopes = set.slopes.of_particle(particle).iter().map(|s| s.wall);
+            let of_slopes = of_particle(&set.slopes, particle).iter().map(|s| s.wall);
             for wall in of_points.chain(of_contacts).chain(of_slopes) {
                 if !self.walls.contains(&wall) {
                     self.walls.push(wall);
@@ -239,7 +240,7 @@ impl<const D: usize> Piece<D> {
             points: Scratch::copied(&own.wall, |v| set.points.wall[v as usize] == wall),
             deficit: deficit.sum::<f64>().max(0.0),
             contacts,
-            slope: (set.slopes.of_particle(own.particle).iter())
+            slope: (of_particle(&set.slopes, own.particle).iter())
                 .filter(|s| s.wall == wall)
                 .fold(Vect::zeros(), |sum, s| sum + s.slope),
             acceleration: Vect::zeros(),

@@ -2,13 +2,7 @@
 
 use sph_core::Vect;
 
-/// ∇ ln s_k of every wall k that scales the kernel at a particle.
-#[derive(Clone, Debug, Default)]
-pub struct Slopes<const D: usize> {
-    all: Vec<Slope<D>>,
-}
-
-/// That of one wall at one particle.
+/// The part of a wall that scales the kernel in ∇ ln s at a particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope<const D: usize> {
     /// The particle.
@@ -19,26 +13,13 @@ pub struct Slope<const D: usize> {
     pub slope: Vect<D>,
 }
 
-impl<const D: usize> Slopes<D> {
-    /// Those of all particles, by particle.
-    pub fn all(&self) -> &[Slope<D>] {
-        &self.all
-    }
-
-    /// Those of a particle.
-    pub fn of_particle(&self, particle: usize) -> &[Slope<D>] {
-        let before = |s: &Slope<D>| (s.particle as usize) < particle;
-        let from = self.all.partition_point(before);
-        let own = self.all[from..].iter();
-        let own = own.take_while(|s| s.particle as usize == particle);
-        &self.all[from..from + own.count()]
-    }
-
-    /// Replaces all; they come by particle.
-    pub fn renew(&mut self, all: impl Iterator<Item = Slope<D>>) {
-        self.all.clear();
-        self.all.extend(all);
-    }
+/// The slopes at a particle, of those of all particles, which come by particle.
+pub(crate) fn of_particle<const D: usize>(all: &[Slope<D>], particle: usize) -> &[Slope<D>] {
+    let before = |s: &Slope<D>| (s.particle as usize) < particle;
+    let from = all.partition_point(before);
+    let own = all[from..].iter();
+    let own = own.take_while(|s| s.particle as usize == particle);
+    &all[from..from + own.count()]
 }
 
 #[cfg(test)]
@@ -52,10 +33,9 @@ mod tests {
             wall,
             slope: Vect::<2>::zeros(),
         };
-        let mut slopes = Slopes::default();
-        slopes.renew([slope(1, 0), slope(1, 2), slope(4, 1)].into_iter());
+        let slopes = [slope(1, 0), slope(1, 2), slope(4, 1)];
         let walls = |particle| {
-            let own = slopes.of_particle(particle).iter();
+            let own = of_particle(&slopes, particle).iter();
             own.map(|s| s.wall).collect()
         };
         let found: Vec<Vec<u32>> = (0..6).map(walls).collect();

@@ -75,7 +75,8 @@ pub struct Flow<const D: usize> {
     pub kinds: Vec<(String, &'static str)>,
     /// Remedies where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
     pub remedies: Vec<(&'static str, String)>,
-    pub(crate) timings: Vec<Timing>,
+    /// Time spent per stage and service since the assembly.
+    pub timings: Vec<Timing>,
     /// The change of gravity, if there is one.
     pub(crate) swing: Option<VariableGravity<D>>,
     /// The outlets.
@@ -321,11 +322,6 @@ impl<const D: usize> Flow<D> {
         (!constant.is_empty()).then_some(range)
     }
 
-    pub(crate) fn written_by_stages(&self) -> Vec<&'static str> {
-        let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
-        writes.map(|f| f.name).collect()
-    }
-
     /// Names of the columns that carry history, in order of allocation.
     pub fn state_columns(&self) -> Vec<&'static str> {
         let columns = self.world.free.columns();
@@ -350,10 +346,5 @@ impl<const D: usize> Flow<D> {
         let names = services.into_iter().chain(stages).chain(hooks);
         let spent = Duration::ZERO;
         self.timings = names.map(|name| Timing { name, spent }).collect();
-    }
-
-    /// Time spent per stage and service since the assembly.
-    pub fn timings(&self) -> &[Timing] {
-        &self.timings
     }
 }

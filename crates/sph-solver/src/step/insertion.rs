@@ -2,9 +2,9 @@
 
 use sph_contribution::{Birth, Initial, Newborn};
 use sph_core::{FieldError, StepError, fields};
+use sph_multiphase::Formulation;
 
 use crate::step::flow::Flow;
-use crate::step::new_particles::NewParticleDefaults;
 
 impl<const D: usize> Flow<D> {
     /// Lets in particles born at the end of a step of `dt` seconds.
@@ -30,20 +30,11 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// As [`let_in`](Self::let_in); a flow that no particle may come into.
     pub fn insert(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
-        let Some(nursery) = self.nursery.take() else {
+        let Some(nursery) = &self.nursery else {
             let why = "no particle may come into this flow";
             return Err(StepError::stage("births", why));
         };
-        let done = self.insert_all(&nursery, all);
-        self.nursery = Some(nursery);
-        done
-    }
-
-    fn insert_all(
-        &mut self,
-        nursery: &NewParticleDefaults<D>,
-        all: &[Newborn<D>],
-    ) -> Result<(), StepError> {
+        let formulation = nursery.formulation.clone();
         if all.is_empty() {
             return Ok(());
         }
@@ -51,13 +42,13 @@ impl<const D: usize> Flow<D> {
             self.refuse(newborn)?;
         }
         let first = self.world.free.inserted.identities;
-        self.fill(nursery, all)?;
+        self.fill(all)?;
         // Where they are follows from their places alone, whatever the order in which they were born.
         self.refresh_lists_and_derived()?;
         if let Some(walls) = &mut self.walls {
             walls.geometry(&mut self.world)?;
         }
-        self.begin_density(nursery, first)
+        self.begin_density(&*formulation, first)
     }
 
     fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
@@ -82,11 +73,10 @@ impl<const D: usize> Flow<D> {
         Err(StepError::stage("births", why))
     }
 
-    fn fill(
-        &mut self,
-        nursery: &NewParticleDefaults<D>,
-        all: &[Newborn<D>],
-    ) -> Result<(), StepError> {
+    fn fill(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
+        let Some(nursery) = &self.nursery else {
+            return Ok(());
+        };
         let free = &mut self.world.free;
         let slots = free.give_birth(all.len())?;
         if let Some(parts) = &self.parts {
@@ -136,14 +126,14 @@ impl<const D: usize> Flow<D> {
     /// have their densities.
     fn begin_density(
         &mut self,
-        nursery: &NewParticleDefaults<D>,
+        formulation: &dyn Formulation<D>,
         first: u32,
     ) -> Result<(), StepError> {
         let free = &self.world.free;
         let before = self.integrated.iter();
         let before = before.map(|f| Ok((*f, free.get(*f)?.to_vec())));
         let before = before.collect::<Result<Vec<_>, FieldError>>()?;
-        nursery.formulation.rebase(&mut self.world)?;
+        formulation.rebase(&mut self.world)?;
         let identity = self.world.free.get(fields::IDENTITY)?.to_vec();
         for (field, values) in before {
             let column = self.world.free.get_mut(field)?.iter_mut();

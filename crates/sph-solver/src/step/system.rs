@@ -118,10 +118,8 @@ impl<const D: usize> Flow<D> {
                 Ok(())
             }
             Motion::Recall(what) => {
-                let by_stages = match what {
-                    Recall::State => self.written_by_stages(),
-                    Recall::Motion | Recall::Scalars => Vec::new(),
-                };
+                let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
+                let by_stages: Vec<_> = writes.map(|f| f.name).collect();
                 self.kept_follows()?;
                 let named = (&self.integrated[..], &by_stages[..]);
                 let walls = (self.walls.as_deref_mut(), &mut self.loads);
