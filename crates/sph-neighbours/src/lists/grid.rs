@@ -29,18 +29,24 @@ impl<const D: usize> Extent<D> {
     }
 }
 
+/// Cells along an axis.
+#[derive(Clone, Copy, Debug, Default)]
+struct CellAxis {
+    lower: f64,
+    inverse_width: f64,
+    /// Cells of the whole extent.
+    all: usize,
+    /// The first of them that the grid has.
+    first: usize,
+    /// Number of cells that the grid has.
+    count: usize,
+    periodic: bool,
+}
+
 /// A regular grid over a set of points; row-major with the first axis fastest.
 #[derive(Clone, Debug)]
 pub struct CellGrid<const D: usize> {
-    lower: Vect<D>,
-    inverse_width: [f64; D],
-    /// Cells along each axis, of the whole extent.
-    all: [usize; D],
-    /// The first of them that this grid has.
-    first: [usize; D],
-    /// Their number.
-    counts: [usize; D],
-    periodic: [bool; D],
+    axes: [CellAxis; D],
     starts: Vec<u32>,
     points: Vec<u32>,
     sorted: bool,
@@ -52,12 +58,7 @@ pub struct CellGrid<const D: usize> {
 impl<const D: usize> Default for CellGrid<D> {
     fn default() -> Self {
         CellGrid {
-            lower: Vect::zeros(),
-            inverse_width: [0.0; D],
-            all: [0; D],
-            first: [0; D],
-            counts: [0; D],
-            periodic: [false; D],
+            axes: [CellAxis::default(); D],
             starts: Vec::new(),
             points: Vec::new(),
             sorted: true,
@@ -92,7 +93,7 @@ impl<const D: usize> CellGrid<D> {
         if among.is_some() {
             for axis in (0..D).filter(|a| !domain.periodic[*a]) {
                 let [low, high] = own.corners.map(|x| self.coordinate(&x, axis));
-                (self.first[axis], self.counts[axis]) = (low, high + 1 - low);
+                (self.axes[axis].first, self.axes[axis].count) = (low, high + 1 - low);
             }
         }
         self.sort(positions);
@@ -100,43 +101,41 @@ impl<const D: usize> CellGrid<D> {
 
     /// All cells of an extent, empty.
     fn cells(&mut self, extent: &Extent<D>, radius: f64, domain: &Domain<D>) {
-        let [mut lower, mut upper] = extent.corners;
-        for axis in 0..D {
-            if domain.periodic[axis] {
-                lower[axis] = domain.lower[axis];
-                upper[axis] = domain.upper[axis];
-            } else {
-                lower[axis] = lower[axis].max(domain.lower[axis]);
-                upper[axis] = upper[axis].min(domain.upper[axis]);
-            }
-        }
-        let extent_along = |a: usize| (upper[a] - lower[a]).max(radius);
+        let [low, high] = &extent.corners;
+        let lower = |a: usize| match domain.periodic[a] {
+            true => domain.lower[a],
+            false => low[a].max(domain.lower[a]),
+        };
+        let upper = |a: usize| match domain.periodic[a] {
+            true => domain.upper[a],
+            false => high[a].min(domain.upper[a]),
+        };
+        let side = |a: usize| (upper(a) - lower(a)).max(radius);
         // Cells number at most a few per point, however sparse the cloud is.
         let most = 4.0 * extent.points.max(16) as f64;
         let mut width = radius / CELLS_PER_RADIUS as f64;
-        let cells = |w: f64| {
-            let along = |a: usize| (extent_along(a) / w).floor().max(1.0);
-            (0..D).map(along).product::<f64>()
-        };
-        while cells(width) > most {
+        let along = |a: usize, width: f64| (side(a) / width).floor().max(1.0);
+        while (0..D).map(|a| along(a, width)).product::<f64>() > most {
             width *= 1.5;
         }
-        let mut counts = [1; D];
-        let mut inverse_width = [0.0; D];
-        for axis in 0..D {
-            counts[axis] = ((extent_along(axis) / width) as usize).max(1);
-            inverse_width[axis] = counts[axis] as f64 / extent_along(axis);
-        }
-        (self.lower, self.inverse_width) = (lower, inverse_width);
-        (self.all, self.first, self.counts) = (counts, [0; D], counts);
-        self.periodic = domain.periodic;
+        self.axes = std::array::from_fn(|axis| {
+            let count = ((side(axis) / width) as usize).max(1);
+            CellAxis {
+                lower: lower(axis),
+                inverse_width: count as f64 / side(axis),
+                all: count,
+                first: 0,
+                count,
+                periodic: domain.periodic[axis],
+            }
+        });
     }
 
     fn sort(&mut self, positions: &[Vect<D>]) {
         let mut cells = std::mem::take(&mut self.cells);
         cells.clear();
         cells.extend(positions.iter().map(|x| self.cell_of(x) as u32));
-        let total: usize = self.counts.iter().product();
+        let total: usize = self.axes.iter().map(|axis| axis.count).product();
         let starts = &mut self.starts;
         starts.clear();
         starts.resize(total + 1, 0);
@@ -181,23 +180,21 @@ impl<const D: usize> CellGrid<D> {
     }
 
     fn coordinate(&self, x: &Vect<D>, axis: usize) -> usize {
-        let (mut c, n) = (
-            (x[axis] - self.lower[axis]) * self.inverse_width[axis],
-            self.all[axis] as f64,
-        );
+        let along = &self.axes[axis];
+        let mut c = (x[axis] - along.lower) * along.inverse_width;
+        let n = along.all as f64;
         // Walls may lie across a periodic border; a rounding beyond it counts as within.
-        if self.periodic[axis] && (c < 0.0 || c > n * (1.0 + 1e-12)) {
+        if along.periodic && (c < 0.0 || c > n * (1.0 + 1e-12)) {
             c = c.rem_euclid(n);
         }
         // A negative or non-finite value casts to 0, a large one is clamped.
-        let cell = (c as usize).min(self.all[axis] - 1);
-        cell.saturating_sub(self.first[axis])
-            .min(self.counts[axis] - 1)
+        let cell = (c as usize).min(along.all - 1);
+        cell.saturating_sub(along.first).min(along.count - 1)
     }
 
     pub(crate) fn cell_of(&self, x: &Vect<D>) -> usize {
         (0..D).rev().fold(0, |cell, axis| {
-            cell * self.counts[axis] + self.coordinate(x, axis)
+            cell * self.axes[axis].count + self.coordinate(x, axis)
         })
     }
 
@@ -215,27 +212,21 @@ impl<const D: usize> CellGrid<D> {
         radius: f64,
         mut visit: impl FnMut(std::ops::Range<usize>),
     ) {
-        let mut spans = [[(0usize, 0usize); 2]; 3];
-        for (axis, span) in spans.iter_mut().enumerate().take(D) {
-            *span = self.span(corners, radius, axis);
-        }
         // Axes that do not exist contribute the single cell 0.
-        for span in spans.iter_mut().skip(D) {
-            *span = [(0, 1), (0, 0)];
-        }
-        let count = |axis: usize| if axis < D { self.counts[axis] } else { 1 };
+        let spans: [_; 3] = std::array::from_fn(|axis| match axis < D {
+            true => self.span(corners, radius, axis),
+            false => [(0, 1), (0, 0)],
+        });
+        let count = |axis: usize| self.axes.get(axis).map_or(1, |axis| axis.count);
         for z_part in spans[2] {
             for z in z_part.0..z_part.1 {
                 for y_part in spans[1] {
                     for y in y_part.0..y_part.1 {
                         let row = (z * count(1) + y) * count(0);
                         for (from, to) in spans[0] {
-                            if from < to {
-                                let first = self.starts[row + from] as usize;
-                                let last = self.starts[row + to] as usize;
-                                if first < last {
-                                    visit(first..last);
-                                }
+                            let [first, last] = [from, to].map(|k| self.starts[row + k] as usize);
+                            if first < last {
+                                visit(first..last);
                             }
                         }
                     }
@@ -261,10 +252,12 @@ impl<const D: usize> CellGrid<D> {
 
     /// Half-open spans of cells along an axis, at most two where a period is crossed.
     fn span(&self, corners: [&Vect<D>; 2], radius: f64, axis: usize) -> [(usize, usize); 2] {
-        let n = self.counts[axis];
-        let reach = (radius * self.inverse_width[axis]).ceil().min(n as f64) as usize;
+        let n = self.axes[axis].count;
+        let reach = (radius * self.axes[axis].inverse_width)
+            .ceil()
+            .min(n as f64) as usize;
         let [low, high] = corners.map(|x| self.coordinate(x, axis));
-        if !self.periodic[axis] {
+        if !self.axes[axis].periodic {
             return [
                 (low.saturating_sub(reach), (high + reach + 1).min(n)),
                 (0, 0),
