@@ -109,7 +109,7 @@ pub struct SuitedPlugin {
 pub type Suits = fn(&FlowNature, Option<&str>) -> Option<SuitedPlugin>;
 
 /// A kind of plugin; declared by [`contract!`](crate::contract).
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct PluginKind {
     /// Name in scene files.
     pub name: &'static str,
@@ -135,12 +135,6 @@ pub struct PluginKind {
     pub plugins: fn() -> Vec<PluginInfo>,
 }
 inventory::collect!(PluginKind);
-
-impl std::fmt::Debug for PluginKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
-    }
-}
 
 impl PluginKind {
     /// A kind without a default, whose terms and hooks follow those of all kinds with an [order](Self::ordered).

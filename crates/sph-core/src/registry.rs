@@ -73,45 +73,33 @@ pub struct Registry<E: Contract> {
     entries: Vec<&'static E>,
 }
 
-impl<E: Contract> Default for Registry<E> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl<E: Contract> Registry<E> {
-    /// No plugin at all; global registrations are ignored.
-    pub fn new() -> Self {
-        Registry {
-            entries: Vec::new(),
-        }
-    }
-
     /// Every plugin of the kind in this binary.
     ///
     /// # Errors
     /// If two crates registered the same name.
     pub fn discovered() -> Result<Self, RegistryError> {
-        let mut all = E::discovered().into_iter();
-        all.try_fold(Self::new(), Self::with)
+        Self::from_entries(E::discovered())
     }
 
-    /// Adds a plugin.
+    /// These plugins alone; global registrations are ignored.
     ///
     /// # Errors
-    /// If the name is taken.
-    pub fn with(mut self, entry: &'static E) -> Result<Self, RegistryError> {
-        let info = entry.info();
-        if let Some(other) = self.entries.iter().find(|e| e.info().name == info.name) {
-            return Err(RegistryError::Duplicate {
-                kind: E::KIND.name,
-                name: info.name,
-                providers: [other, entry].map(|e| e.info().provider),
-            });
+    /// If two have the same name.
+    pub fn from_entries(mut entries: Vec<&'static E>) -> Result<Self, RegistryError> {
+        entries.sort_by_key(|e| e.info().name);
+        for two in entries.windows(2).map(|two| [two[0], two[1]].map(E::info)) {
+            if two[0].name == two[1].name {
+                let (kind, name) = (E::KIND.name, two[0].name);
+                let providers = two.map(|info| info.provider);
+                return Err(RegistryError::Duplicate {
+                    kind,
+                    name,
+                    providers,
+                });
+            }
         }
-        self.entries.push(entry);
-        self.entries.sort_by_key(|e| e.info().name);
-        Ok(self)
+        Ok(Registry { entries })
     }
 
     /// The plugin of that name.

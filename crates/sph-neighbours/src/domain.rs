@@ -30,11 +30,6 @@ impl<const D: usize> Domain<D> {
         self.upper[axis] - self.lower[axis]
     }
 
-    /// True if any axis is periodic.
-    pub fn any_periodic(&self) -> bool {
-        self.periodic.iter().any(|p| *p)
-    }
-
     /// The separation between nearest images.
     #[inline(always)]
     pub fn nearest_image(&self, mut d: Vect<D>) -> Vect<D> {

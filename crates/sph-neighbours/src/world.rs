@@ -176,7 +176,7 @@ impl<const D: usize> World<D> {
     /// Moves particles into the box along its periodic axes.
     pub fn wrap(&mut self) -> Result<(), FieldError> {
         let domain = &self.domain;
-        if domain.any_periodic() {
+        if domain.periodic.contains(&true) {
             let positions = self.free.get_mut(fields::POSITION)?;
             let all = positions.par_iter_mut();
             all.for_each(|x| *x = domain.wrapped(*x));

@@ -100,7 +100,7 @@ fn nearest_image<const D: usize, M: WallMesh<D>>(
     x: &Vect<D>,
     wall: u32,
 ) -> Vect<D> {
-    if !world.domain.any_periodic() {
+    if !world.domain.periodic.contains(&true) {
         return *x;
     }
     let centre = outline.states[wall as usize].place();

@@ -55,9 +55,7 @@ impl Halo {
 
     /// Ranks that a rank has ghosts of, ascending.
     pub fn partners(&self, rank: usize) -> Vec<usize> {
-        self.copies[rank]
-            .keys()
-            .map(|from| *from as usize)
-            .collect()
+        let from = self.copies[rank].keys();
+        from.map(|from| *from as usize).collect()
     }
 }

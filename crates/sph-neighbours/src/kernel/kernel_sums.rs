@@ -34,7 +34,7 @@ pub fn kernel_sums<const D: usize>(
     let width = width();
     let cluster = |room: &mut SumScratch, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
         let domain = |i: usize| world.domain.wrapping(&positions[i], world.reach());
-        let mut inside = std::mem::take(&mut room.inside);
+        let inside = &mut room.inside;
         inside.clear();
         inside.resize(all.candidates.len(), false);
         for members in groups(all, width.lanes()) {
@@ -67,7 +67,7 @@ pub fn kernel_sums<const D: usize>(
                     distance2,
                     value,
                     limit,
-                    inside: &mut inside,
+                    inside,
                     sums,
                 },
             );
@@ -87,11 +87,10 @@ pub fn kernel_sums<const D: usize>(
             }
         }
         let mut n = 0;
-        for (&j, &near) in all.candidates.iter().zip(&inside) {
+        for (&j, &near) in all.candidates.iter().zip(&*inside) {
             slots[n] = j;
             n += usize::from(near);
         }
-        room.inside = inside;
         n
     };
     pruned.fill(&world.lists.free, sums, &world.lists.pools.pruned, cluster);

@@ -12,13 +12,6 @@ pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
     Particles::first(points.len()).vectors(points)
 }
 
-/// |r_i − r_j|² in all lanes.
-#[inline(always)]
-pub(crate) fn distance2_at<const D: usize, L: Lane>(x: &[L; D], there: &Vect<D>) -> L {
-    let d = minus(x, there);
-    dot(&d, &d)
-}
-
 /// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate; and separations, as
 /// many for each component, where they are `KEPT`.
 ///

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 use sph_core::{Pool, Vect};
-use sph_kernels::lanes::{Body, Lane, dispatch_at, width};
+use sph_kernels::lanes::{Body, Lane, dispatch_at, dot, width};
 
-use crate::lanes::separation::{distance2_at, places};
+use crate::lanes::separation::places;
 use crate::lists::buffer::{grow, keep_all};
 use crate::lists::members::Members;
-use crate::{CellGrid, Domain};
+use crate::{CellGrid, Domain, minus};
 
 /// Particles that one task works through; also the granule of the lists.
 pub const CHUNK: usize = 64;
@@ -294,7 +294,8 @@ impl<const D: usize> Body for CandidateSearch<'_, D> {
         for range in ranges {
             for j in range.clone() {
                 slots[n] = j as u32;
-                n += usize::from(distance2_at(&x, &self.points[j]).any_less(limit));
+                let apart = minus(&x, &self.points[j]);
+                n += usize::from(dot(&apart, &apart).any_less(limit));
             }
         }
         self.from + n

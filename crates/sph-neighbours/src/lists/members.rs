@@ -7,22 +7,18 @@ use sph_kernels::lanes::MOST;
 /// Some particles that follow each other, and all that any of them may have within reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members<'a> {
-    /// The first particle.
     pub from: usize,
-    /// Their number.
     pub count: usize,
     /// Candidates, the members themselves among them, in index order.
     pub candidates: &'a [u32],
 }
 
 impl<'a> Members<'a> {
-    /// The particles.
     #[inline(always)]
     pub fn range(&self) -> Range<usize> {
         self.from..self.from + self.count
     }
 
-    /// The same with other candidates.
     pub fn with(self, candidates: &'a [u32]) -> Self {
         Members { candidates, ..self }
     }

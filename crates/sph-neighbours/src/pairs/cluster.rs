@@ -47,7 +47,6 @@ pub(crate) struct Buffers<const D: usize> {
     pub walls: [Scratch<D>; MOST],
     /// Rows of free neighbours, one per member, where rows were requested.
     free: [Scratch<D>; MOST],
-    /// Sums of the members.
     pub sums: crate::lanes::particles::Rows,
     /// True if `free` is of the cluster at hand.
     rows: bool,

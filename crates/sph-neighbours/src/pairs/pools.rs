@@ -12,17 +12,14 @@ use crate::{CellGrid, Rates, Rows};
 /// Buffers of the tasks that walk over lists, and of those that build them.
 #[derive(Default)]
 pub(crate) struct Pools<const D: usize> {
-    /// Of clusters, with the rates of a block.
     pub sweeps: Pool<(Buffers<D>, Vec<Rates<D>>)>,
     /// Rows, with kernel values of free particles and wall points.
     pub walks: Pool<(Rows<D>, [Vec<f64>; 2])>,
-    /// Numbers of all pairs of a cluster.
     pub numbers: Pool<Vec<f64>>,
     /// Of kernel sums, with the candidates that are kept.
     pub pruned: Pool<(SumScratch, Vec<u32>)>,
     /// Kernel values around a place, the particles within the support, and sums.
     pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
-    /// Candidates of clusters, with the ranges of cells.
     pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,
     pub grids: Pool<CellGrid<D>>,
     pub centres: Pool<Vec<Vect<D>>>,

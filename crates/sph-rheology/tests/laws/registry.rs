@@ -86,12 +86,7 @@ fn mistakes_are_named() {
 fn the_same_name_twice_is_refused() {
     static ONE: LawEntry = same("one");
     static TWO: LawEntry = same("two");
-    let twice = Registry::new()
-        .with(&ONE)
-        .unwrap()
-        .with(&TWO)
-        .err()
-        .unwrap();
+    let twice = Registry::from_entries(vec![&ONE, &TWO]).err().unwrap();
     assert!(matches!(
         twice,
         RegistryError::Duplicate { name: "same", .. }

@@ -135,9 +135,7 @@ impl<const D: usize> Flow<D> {
         }
         Ok(all)
     }
-}
 
-impl<const D: usize> Flow<D> {
     pub(crate) fn run_hooks(&mut self, phase: StepPhase, dt: f64) -> Result<(), StepError> {
         for n in 0..self.hooks.during(phase).len() {
             let k = self.hooks.during(phase)[n];

@@ -99,9 +99,7 @@ impl<const D: usize> Flow<D> {
             Some(parts) => Ok(parts.link.any(false, own)?),
         }
     }
-}
 
-impl<const D: usize> Flow<D> {
     /// Refreshes the lists. Where that sorts the particles, their derived columns are sorted, too: pressures and volumes of
     /// the last evaluation remain those of the same particles.
     pub(crate) fn refresh_lists_and_derived(&mut self) -> Result<(), StepError> {

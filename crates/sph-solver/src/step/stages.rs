@@ -72,16 +72,13 @@ impl<const D: usize> Declares for Work<D> {
     fn access(&self) -> Access {
         match self {
             Work::WallGeometry { columns } => {
-                let mut access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
+                let mut access = Access::none().here((fields::POSITION, fields::IDENTITY));
                 access.writes.extend(columns);
                 access
             }
             Work::WallState => Access::none()
-                .neighbours(fields::POSITION)
-                .neighbours(fields::VELOCITY)
-                .neighbours(fields::PRESSURE)
-                .neighbours(fields::DENSITY)
-                .neighbours(fields::VOLUME)
+                .neighbours((fields::POSITION, fields::VELOCITY, fields::PRESSURE))
+                .neighbours((fields::DENSITY, fields::VOLUME))
                 .here(fields::IDENTITY)
                 .where_there(fields::PHASE)
                 .writes(WALL_STATE),
@@ -155,10 +152,8 @@ impl<const D: usize> Declares for InteractionSweep<D> {
             .both(fields::POSITION)
             .writes(fields::ACCELERATION);
         if let Some(diffused) = &self.diffused {
-            access = access
-                .here(fields::DENSITY)
-                .here(fields::VOLUME)
-                .writes(diffused.evolved.rate);
+            access = access.here((fields::DENSITY, fields::VOLUME));
+            access = access.writes(diffused.evolved.rate);
         }
         if self.walls {
             access = access.here(WALL_STATE);
