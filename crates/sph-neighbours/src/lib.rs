@@ -44,7 +44,6 @@ pub use lists::half::{SweepHalf, is_wanted};
 pub use lists::hidden::{Hidden, HiddenPairs};
 pub use lists::nearby::Nearby;
 pub use loads::depth_gauge::DepthGauge;
-pub use loads::lightness::lightness;
 pub use loads::reaction::{loads, reactions, wall_forces};
 pub use loads::wall_parts::{WallPart, wall_parts};
 pub use pairs::cluster::Cluster;
@@ -66,7 +65,7 @@ pub use terms::term::{
 };
 pub use walls::contact_block::{Contact, ContactBlock, ContactIter, ContactRow};
 pub use walls::contacts::Contacts;
-pub use walls::free_body::FreeBody;
+pub use walls::free_body::{FreeBody, lightness};
 pub use walls::slopes::Slope;
 pub use walls::wall_force::{WallForce, cross};
 pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};

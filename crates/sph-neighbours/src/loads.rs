@@ -2,6 +2,5 @@
 
 pub(crate) mod depth_gauge;
 pub(crate) mod facing;
-pub(crate) mod lightness;
 pub(crate) mod reaction;
 pub(crate) mod wall_parts;

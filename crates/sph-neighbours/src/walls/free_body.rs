@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Matrix6, Vector6};
 use sph_core::Vect;
 
-use crate::{Domain, cross};
+use crate::{Domain, Elements, cross};
 
 /// A wall that gives way to forces.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,4 +48,23 @@ impl<const D: usize> FreeBody<D> {
             (value > 0.0).then(|| eigen.eigenvectors.column(k) * value.sqrt())
         })
     }
+}
+
+/// The largest λ of Σ S j jᵀ a = λ M a over the elements of a body of area S, m^(d−1)/kg: a layer of fluid of the thickness
+/// l at its surface has ρ l λ times its inertia.
+pub fn lightness<const D: usize>(body: &FreeBody<D>, elements: &Elements<D>) -> f64 {
+    let mut surface = Matrix6::zeros();
+    for (s, wall) in elements.wall.iter().enumerate() {
+        if body.walls.contains(wall) {
+            let j = body.along(&elements.centre[s], &elements.normal[s]);
+            surface += j * j.transpose() * elements.measure[s];
+        }
+    }
+    let mut root = Matrix6::zeros();
+    for (k, column) in body.roots().enumerate() {
+        root.set_column(k, &column);
+    }
+    (root.transpose() * surface * root)
+        .symmetric_eigenvalues()
+        .max()
 }

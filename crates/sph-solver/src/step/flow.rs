@@ -93,7 +93,7 @@ impl<const D: usize> Flow<D> {
     /// Smallest step limit with its name; the smallest of all plugins.
     ///
     /// # Errors
-    /// If a limiter misses a column.
+    /// If a column is missing, as everywhere below.
     pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
         let mut limits = Vec::new();
         self.step_limits_into(&mut limits)?;
@@ -265,9 +265,6 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Measures the forces on the wanted walls at the state of the last evaluation; those on others are NaN.
-    ///
-    /// # Errors
-    /// If a term misses a column.
     pub fn measure_wall_forces(&mut self, wanted: impl Fn(&str) -> bool) -> Result<(), StepError> {
         if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
             return Ok(());

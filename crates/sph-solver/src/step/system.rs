@@ -79,7 +79,7 @@ impl<const D: usize> Flow<D> {
     /// state is one to which a run came back, of which it was a part.
     ///
     /// # Errors
-    /// Those of stages, and of the change.
+    /// Those of stages, as below, and of the change.
     pub fn evaluate_with(
         &mut self,
         change: impl FnOnce(&mut Self, bool) -> Result<(), StepError>,
@@ -92,9 +92,6 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Computes densities again, whose constants a change of [`evaluate_with`](Self::evaluate_with) has moved.
-    ///
-    /// # Errors
-    /// Those of stages.
     pub fn sum_densities(&mut self) -> Result<(), StepError> {
         self.run_wanted(false, |stage| writes_any(stage, &DENSITIES[1..]))
     }
