@@ -77,15 +77,12 @@ impl<E: Contract> Registry<E> {
     /// Every plugin of the kind in this binary.
     ///
     /// # Errors
-    /// If two crates registered the same name.
+    /// If two have the same name, as below.
     pub fn discovered() -> Result<Self, RegistryError> {
         Self::from_entries(E::discovered())
     }
 
     /// These plugins alone; global registrations are ignored.
-    ///
-    /// # Errors
-    /// If two have the same name.
     pub fn from_entries(mut entries: Vec<&'static E>) -> Result<Self, RegistryError> {
         entries.sort_by_key(|e| e.info().name);
         for two in entries.windows(2).map(|two| [two[0], two[1]].map(E::info)) {

@@ -14,7 +14,6 @@ pub(crate) fn places<const D: usize, L: Lane>(points: &[Vect<D>]) -> [L; D] {
 
 /// Squared distances of the members of a cluster from all candidates, `N` numbers for each candidate; and separations, as
 /// many for each component, where they are `KEPT`.
-///
 /// A member is infinitely far from itself, so that the kernel leaves it out.
 pub(crate) struct Distances<'a, const D: usize, const KEPT: bool> {
     pub members: Members<'a>,

@@ -72,7 +72,6 @@ pub fn all_sums<const D: usize>(
 }
 
 /// Passes all terms as one to `with`, each held to its declaration while it looks its columns up.
-///
 /// Every term is on the stack of the one before it, so that no step allocates memory.
 pub(crate) fn with_all<'t, const D: usize, T: Borrow<dyn Interaction<D> + 't>>(
     world: &World<D>,

@@ -72,10 +72,6 @@ pub(crate) struct ObservedFlow<'a, const D: usize> {
 
 /// An observer of a flow at the boundaries within its steps.
 pub(crate) trait Observer<const D: usize>: Send {
-    /// Looks.
-    ///
-    /// # Errors
-    /// If a column is missing.
     fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError>;
 }
 

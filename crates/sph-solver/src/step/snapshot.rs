@@ -68,7 +68,6 @@ impl<const D: usize> Snapshot<D> {
     }
 
     /// Puts part of the state back, for any present order of the particles.
-    ///
     /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, the start of
     /// a solve) is left as the last evaluation made it: only motion is undone.
     pub(crate) fn recall(
