@@ -53,17 +53,8 @@ impl LevelGrid {
         }
     }
 
-    /// The place next to one along an axis, upwards; none behind the last of an axis that is not periodic.
-    pub fn next(&self, place: usize, axis: usize) -> Option<usize> {
-        self.stepped(place, axis, 1)
-    }
-
-    /// The place before one along an axis; none before the first of an axis that is not periodic.
-    pub fn before(&self, place: usize, axis: usize) -> Option<usize> {
-        self.stepped(place, axis, -1)
-    }
-
-    fn stepped(&self, place: usize, axis: usize, by: isize) -> Option<usize> {
+    /// The place some steps from one along an axis, upwards; none beyond the ends of an axis that is not periodic.
+    pub fn step(&self, place: usize, axis: usize, by: isize) -> Option<usize> {
         let (mut index, count) = (self.index(place), self.count[axis] as isize);
         let there = index[axis] as isize + by;
         if !self.periodic[axis] && !(0..count).contains(&there) {
@@ -289,8 +280,8 @@ mod tests {
         let values: Vec<f64> = (0..grid.len()).map(|k| grid.index(k)[0] as f64).collect();
         assert!((grid.mean(&values, [2.75, -1.0]) - 1.5).abs() < 1e-14);
         assert!((grid.mean(&values, [0.75, -1.0]) - 1.5).abs() < 1e-14);
-        assert_eq!(grid.next(3, 0), Some(0));
-        assert_eq!(grid.next(8, 1), None);
+        assert_eq!(grid.step(3, 0, 1), Some(0));
+        assert_eq!(grid.step(8, 1, 1), None);
         let area: f64 = (0..grid.len()).map(|k| grid.area(k)).sum();
         assert!((area - 2.0 * 0.5).abs() < 1e-14);
     }

@@ -12,8 +12,10 @@ use crate::{Owned, World};
 /// owners, and products are those of all rows. Where all particles are here, nothing has to follow.
 pub struct Space<const D: usize> {
     link: Option<Arc<Link>>,
-    owned: Owned,
-    particles: usize,
+    /// The rows that count.
+    pub owned: Owned,
+    /// Particles, copies among them.
+    pub particles: usize,
 }
 
 /// Members of one partial sum.
@@ -44,16 +46,6 @@ impl<const D: usize> Space<D> {
     /// True if all rows are here.
     pub fn is_whole(&self) -> bool {
         self.link.is_none()
-    }
-
-    /// Particles, copies among them.
-    pub fn particles(&self) -> usize {
-        self.particles
-    }
-
-    /// The rows that count.
-    pub fn owned(&self) -> &Owned {
-        &self.owned
     }
 
     /// Gives copies the values of their owners.

@@ -111,45 +111,33 @@ impl<const D: usize> CouplingsAt<'_, D> {
         out: &mut [Vect<D>],
         of: impl Fn(usize, Vect<D>) -> Vect<D> + Sync,
     ) {
+        let kinds = self.couplings.kinds;
         each_block(out, CHUNK, &|block, out| {
             for (group, columns, numbers) in self.couplings.groups(block) {
                 let from = group.from as usize;
                 let own = from..from + group.count as usize;
                 let first = from - block * CHUNK;
                 let places = &mut out[first..first + own.len()];
-                self.group(group, columns, numbers, u, places);
+                let product = Product {
+                    x: &self.positions[own.clone()],
+                    own: &u[own.clone()],
+                    positions: self.positions,
+                    u,
+                    columns,
+                    numbers,
+                    domain: group.wraps.then_some(self.domain),
+                    out: &mut *places,
+                };
+                let width = group.width;
+                match (kinds.even, kinds.along) {
+                    (true, true) => dispatch_at(width, ProductBody::<D, true, true>(product)),
+                    (true, false) => dispatch_at(width, ProductBody::<D, true, false>(product)),
+                    (false, true) => dispatch_at(width, ProductBody::<D, false, true>(product)),
+                    (false, false) => product.out.fill(Vect::zeros()),
+                }
                 own.zip(places).for_each(|(i, sum)| *sum = of(i, *sum));
             }
         });
-    }
-
-    fn group(
-        &self,
-        group: &Group,
-        columns: &[u32],
-        numbers: &[f64],
-        u: &[Vect<D>],
-        out: &mut [Vect<D>],
-    ) {
-        let kinds = self.couplings.kinds;
-        let from = group.from as usize;
-        let there = from..from + group.count as usize;
-        let product = Product {
-            x: &self.positions[there.clone()],
-            own: &u[there],
-            positions: self.positions,
-            u,
-            columns,
-            numbers,
-            domain: group.wraps.then_some(self.domain),
-            out,
-        };
-        match (kinds.even, kinds.along) {
-            (true, true) => dispatch_at(group.width, ProductBody::<D, true, true>(product)),
-            (true, false) => dispatch_at(group.width, ProductBody::<D, true, false>(product)),
-            (false, true) => dispatch_at(group.width, ProductBody::<D, false, true>(product)),
-            (false, false) => product.out.fill(Vect::zeros()),
-        }
     }
 
     /// Calls `visit` with α, β and r_a − r_b of all pairs of a block that are coupled: the particle a and then its neighbours b,
@@ -164,10 +152,7 @@ impl<const D: usize> CouplingsAt<'_, D> {
                 visitor.begin(a, columns.len());
                 let stride = kinds.count() * lanes;
                 for (&b, numbers) in columns.iter().zip(numbers.chunks_exact(stride)) {
-                    let even = match kinds.even {
-                        true => numbers[lane],
-                        false => 0.0,
-                    };
+                    let even = if kinds.even { numbers[lane] } else { 0.0 };
                     let along = match kinds.along {
                         true => numbers[stride - lanes + lane],
                         false => 0.0,

@@ -275,7 +275,7 @@ impl<const D: usize> Solve<D> {
         self.parts(world, &space, &mut scratch.parts)?;
         let (parts, assembly) = (&scratch.parts, &mut scratch.assembly);
         let system = Couplings {
-            owned: space.owned(),
+            owned: &space.owned,
             parts,
             volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,

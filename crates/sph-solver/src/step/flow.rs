@@ -169,10 +169,7 @@ impl<const D: usize> Flow<D> {
     ) -> Result<(), StepError> {
         let start = Instant::now();
         let Hooked { hook, access, .. } = &mut self.hooks.all[number];
-        let more = match binds {
-            true => &self.columns.forces[..],
-            false => &[],
-        };
+        let more = if binds { &self.columns.forces[..] } else { &[] };
         self.world.free.watch(more.iter().chain([&*access]));
         let mut moment = StepMoment {
             world: &mut self.world,

@@ -115,10 +115,7 @@ impl<const D: usize> Flow<D> {
         };
         let places = || position.par_iter().enumerate().with_min_len(2048).map(by);
         let some = places().any(|outlet| outlet.is_some());
-        let left: Vec<Option<usize>> = match some {
-            true => places().collect(),
-            false => Vec::new(),
-        };
+        let left: Vec<Option<usize>> = if some { places().collect() } else { Vec::new() };
         if !self.any_rank(some)? {
             return Ok(());
         }
