@@ -4,14 +4,84 @@ use nalgebra::SMatrix;
 
 use crate::{Symmetric, Vect};
 
-/// A column of one of the supported types.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Column<const D: usize> {
-    Scalar(Vec<f64>),
-    Vector(Vec<Vect<D>>),
-    Index(Vec<u32>),
-    Tensor(Vec<SMatrix<f64, D, D>>),
-    SymmetricTensor(Vec<Symmetric>),
+/// The types of columns: as a column, as a value, and as a name for columns of the type.
+macro_rules! types {
+    ($($(#[$doc:meta])+ $kind:ident: $item:ty;)+) => {
+        /// A column of one of the supported types.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Column<const D: usize> {
+            $($kind(Vec<$item>),)+
+        }
+
+        /// The type of a column as a value.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Shape {
+            $($(#[$doc])+ $kind,)+
+        }
+
+        impl Shape {
+            /// A column of `n` zero entries.
+            pub fn column<const D: usize>(self, n: usize) -> Column<D> {
+                match self {
+                    $(Shape::$kind => Column::$kind(vec![Item::zero(); n]),)+
+                }
+            }
+        }
+
+        impl<const D: usize> Column<D> {
+            /// Overwrites it with the entries of another column of its type, or with those in some places of the other;
+            /// false if the other has another type.
+            pub(crate) fn copy(&mut self, from: &Self, places: Option<&[u32]>) -> bool {
+                match (self, from) {
+                    $((Column::$kind(to), Column::$kind(from)) => put(to, from, places),)+
+                    _ => false,
+                }
+            }
+        }
+
+        $(
+            $(#[$doc])+
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub struct $kind;
+            impl Kind for $kind {
+                type Item<const D: usize> = $item;
+                fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<$item>> {
+                    match column {
+                        Column::$kind(items) => Some(items),
+                        _ => None,
+                    }
+                }
+                fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<$item>> {
+                    match column {
+                        Column::$kind(items) => Some(items),
+                        _ => None,
+                    }
+                }
+                const SHAPE: Shape = Shape::$kind;
+            }
+        )+
+    };
+}
+types! {
+    /// One real number per particle.
+    Scalar: f64;
+    /// One vector of D components per particle.
+    Vector: Vect<D>;
+    /// One unsigned integer per particle (identity, phase).
+    Index: u32;
+    /// One D × D tensor per particle (a velocity gradient).
+    Tensor: SMatrix<f64, D, D>;
+    /// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
+    SymmetricTensor: Symmetric;
+}
+
+fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) -> bool {
+    to.clear();
+    match places {
+        None => to.extend_from_slice(from),
+        Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
+    }
+    true
 }
 
 /// The same work on the entries of a column of any type.
@@ -91,27 +161,6 @@ impl<const D: usize> Column<D> {
     pub(crate) fn resize(&mut self, n: usize) {
         each_type!(self, items => items.resize(n, Item::zero()));
     }
-
-    /// Overwrites it with the entries of another column of its type, or with those in some places of the other; false
-    /// if the other has another type.
-    pub(crate) fn copy(&mut self, from: &Self, places: Option<&[u32]>) -> bool {
-        fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) -> bool {
-            to.clear();
-            match places {
-                None => to.extend_from_slice(from),
-                Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
-            }
-            true
-        }
-        match (self, from) {
-            (Column::Scalar(to), Column::Scalar(from)) => put(to, from, places),
-            (Column::Vector(to), Column::Vector(from)) => put(to, from, places),
-            (Column::Index(to), Column::Index(from)) => put(to, from, places),
-            (Column::Tensor(to), Column::Tensor(from)) => put(to, from, places),
-            (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => put(to, from, places),
-            _ => false,
-        }
-    }
 }
 
 /// The type of a field's entries.
@@ -125,80 +174,6 @@ pub trait Kind: Copy + 'static {
     /// The type as a value.
     const SHAPE: Shape;
 }
-
-/// The type of a column as a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Reals.
-    Scalar,
-    /// Vectors.
-    Vector,
-    /// Unsigned integers.
-    Index,
-    /// D × D tensors.
-    Tensor,
-    /// Symmetric tensors in space.
-    SymmetricTensor,
-}
-
-impl Shape {
-    /// A column of `n` zero entries.
-    pub fn column<const D: usize>(self, n: usize) -> Column<D> {
-        match self {
-            Shape::Scalar => Column::Scalar(vec![Item::zero(); n]),
-            Shape::Vector => Column::Vector(vec![Item::zero(); n]),
-            Shape::Index => Column::Index(vec![Item::zero(); n]),
-            Shape::Tensor => Column::Tensor(vec![Item::zero(); n]),
-            Shape::SymmetricTensor => Column::SymmetricTensor(vec![Item::zero(); n]),
-        }
-    }
-}
-
-macro_rules! kind {
-    ($(#[$doc:meta])+ $kind:ident, $item:ty) => {
-        $(#[$doc])+
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub struct $kind;
-        impl Kind for $kind {
-            type Item<const D: usize> = $item;
-            fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>> {
-                match column {
-                    Column::$kind(items) => Some(items),
-                    _ => None,
-                }
-            }
-            fn items_mut<const D: usize>(
-                column: &mut Column<D>,
-            ) -> Option<&mut Vec<Self::Item<D>>> {
-                match column {
-                    Column::$kind(items) => Some(items),
-                    _ => None,
-                }
-            }
-            const SHAPE: Shape = Shape::$kind;
-        }
-    };
-}
-kind!(
-    /// One real number per particle.
-    Scalar, f64
-);
-kind!(
-    /// One vector of D components per particle.
-    Vector, Vect<D>
-);
-kind!(
-    /// One unsigned integer per particle (identity, phase).
-    Index, u32
-);
-kind!(
-    /// One D × D tensor per particle (a velocity gradient).
-    Tensor, SMatrix<f64, D, D>
-);
-kind!(
-    /// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
-    SymmetricTensor, Symmetric
-);
 
 /// A typed name for a column: `Field<Scalar>`, `Field<Vector>` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

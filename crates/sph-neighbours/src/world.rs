@@ -100,14 +100,9 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
-    /// True if the walls scale the kernel.
-    pub fn scales(&self) -> bool {
-        self.walls.scales
-    }
-
     /// γ of density sums; none where it is 1.
     pub fn sum_renormalisation(&self) -> Option<&[f64]> {
-        match self.scales() {
+        match self.walls.scales {
             true => None,
             false => self.free.get(fields::RENORMALISATION).ok(),
         }

@@ -103,9 +103,9 @@ impl<const D: usize> Contribution<D> for Fickian {
             offer.term(ShiftTransport {
                 velocity: self.transport == Transport::All,
                 relaxation: self.relaxation,
-                summed: setting.summed && !setting.world.scales(),
+                summed: setting.summed && !setting.world.walls.scales,
             });
-            if setting.summed && setting.world.scales() {
+            if setting.summed && setting.world.walls.scales {
                 offer.term(ShiftedSum);
             }
         }

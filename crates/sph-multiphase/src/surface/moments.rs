@@ -84,7 +84,7 @@ fn at_surface<const D: usize>(
 ) -> (Symmetric, f64) {
     let (kernel, points) = (&*world.kernel, &world.walls.points);
     let cell = world.spacing.powi(D as i32);
-    let scale = rows.scale().filter(|_| world.scales());
+    let scale = rows.scale().filter(|_| world.walls.scales);
     let own = scale.map_or(kernel.value_at_zero(), |scale| scale.own_value);
     let (mut filling, mut slope) = (cell * (own + values), Vect::from(slopes) * cell);
     let mut moment = Symmetric(moments) * cell;
@@ -96,11 +96,11 @@ fn at_surface<const D: usize>(
         slope += r * (part * factor);
         moment = moment - outer(&r) * (part * factor);
     }
-    let inverse = match world.scales() {
+    let inverse = match world.walls.scales {
         true => 1.0,
         false => rows.inverse_renormalisation,
     };
-    if !world.scales() {
+    if !world.walls.scales {
         rows.contacts.iter().for_each(|c| normal += c.gradient);
     }
     let (filling, moment) = (filling * inverse, moment * inverse);

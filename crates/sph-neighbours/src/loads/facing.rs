@@ -37,7 +37,7 @@ pub(crate) fn facing_forces<const D: usize>(
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let mut forces = vec![WallForce::zero(); wanted.len()];
-    if world.scales() {
+    if world.walls.scales {
         return Ok(forces);
     }
     let pairs = pairs(world, wanted);
