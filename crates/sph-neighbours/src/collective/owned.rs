@@ -50,10 +50,7 @@ impl<const D: usize> World<D> {
         let owned = self.owned();
         let looked = match owned.all() {
             true => None,
-            false => Some((
-                self.free.get(fields::IDENTITY)?,
-                self.free.get(fields::POSITION)?,
-            )),
+            false => Some(self.free.all((fields::IDENTITY, fields::POSITION))?),
         };
         Ok(OwnedElements {
             world: self,
@@ -83,13 +80,8 @@ impl<const D: usize> OwnedElements<'_, D> {
             let candidates = lists.of_elements.candidates(element);
             return self.has_first([(&walls.elements.centre[element], candidates)]);
         }
-        let list = lists.of_corners(&walls.points);
-        let corner = |c: u32| {
-            (
-                &walls.points.position[c as usize],
-                list.candidates(c as usize),
-            )
-        };
+        let (list, place) = (lists.of_corners(&walls.points), &walls.points.position);
+        let corner = |c: u32| (&place[c as usize], list.candidates(c as usize));
         self.has_first(walls.elements.corners[element].map(corner))
     }
 

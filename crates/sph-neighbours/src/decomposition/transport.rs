@@ -90,9 +90,8 @@ pub trait Transport: Send + Sync + Debug {
     /// Gives every rank a number, and takes one from each.
     fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
         let others = self.other_ranks();
-        let out = others
-            .iter()
-            .map(|r| (*r, numbers[*r].to_le_bytes().to_vec()));
+        let message = |r: &usize| (*r, numbers[*r].to_le_bytes().to_vec());
+        let out = others.iter().map(message);
         let mut all = vec![numbers[self.rank()]; self.ranks()];
         for (from, message) in others.iter().zip(self.swap(out.collect(), &others)?) {
             let bytes = message.try_into().map_err(|m: Vec<u8>| {

@@ -39,17 +39,14 @@ pub fn kernel_sums<const D: usize>(
         inside.resize(all.candidates.len(), false);
         for members in groups(all, width.lanes()) {
             let first = members.from - all.from;
-            let near = members.range().find_map(domain);
-            dispatch_at(
-                width,
-                Distances::<D, false> {
-                    members,
-                    positions,
-                    domain: near,
-                    out: &mut room.lanes.distance2,
-                    separations: &mut Vec::new(),
-                },
-            );
+            let distances = Distances::<D, false> {
+                members,
+                positions,
+                domain: members.range().find_map(domain),
+                out: &mut room.lanes.distance2,
+                separations: &mut Vec::new(),
+            };
+            dispatch_at(width, distances);
             let values = &mut room.lanes;
             let needed = members.candidates.len() * width.lanes();
             values.reserve(needed);
@@ -60,17 +57,14 @@ pub fn kernel_sums<const D: usize>(
             if let Some(scaling) = scaling.filter(|s| s.acts(members)) {
                 scaling.scale_pairs(width, members, value);
             }
-            let sums = &mut sums[first..first + members.count];
-            dispatch_at(
-                width,
-                Total {
-                    distance2,
-                    value,
-                    limit,
-                    inside,
-                    sums,
-                },
-            );
+            let total = Total {
+                distance2,
+                value,
+                limit,
+                inside,
+                sums: &mut sums[first..first + members.count],
+            };
+            dispatch_at(width, total);
         }
         for (k, sum) in sums.iter_mut().enumerate() {
             *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value);

@@ -91,14 +91,9 @@ fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallP
         false => world.lists.wall.candidates(i),
     };
     let mut of_points = (of_points.iter()).filter(|v| walls.points.wall[**v as usize] == part.wall);
-    let seen = of_elements
-        .next()
-        .map(|s| &walls.elements.centre[*s as usize]);
-    let seen = seen.or_else(|| {
-        of_points
-            .next()
-            .map(|v| &walls.points.position[*v as usize])
-    });
+    let (centres, places) = (&walls.elements.centre, &walls.points.position);
+    let seen = of_elements.next().map(|s| &centres[*s as usize]);
+    let seen = seen.or_else(|| of_points.next().map(|v| &places[*v as usize]));
     let Some(seen) = seen else { return *x };
     let apart = x - seen;
     x + (world.domain.nearest(apart) - apart) + walls.round(part.wall)

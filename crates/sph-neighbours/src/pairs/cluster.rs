@@ -63,16 +63,14 @@ impl<const D: usize> Buffers<D> {
         hidden: &HiddenPairs,
         kernel: &K,
     ) {
-        dispatch_at(
-            width,
-            Distances::<D, true> {
-                members,
-                positions,
-                domain,
-                out: &mut self.distance2,
-                separations: &mut self.separation,
-            },
-        );
+        let distances = Distances::<D, true> {
+            members,
+            positions,
+            domain,
+            out: &mut self.distance2,
+            separations: &mut self.separation,
+        };
+        dispatch_at(width, distances);
         hidden.part(members, width.lanes(), &mut self.distance2);
         let needed = members.candidates.len() * width.lanes();
         grow(&mut self.factor, needed);

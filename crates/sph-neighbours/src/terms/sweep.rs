@@ -59,16 +59,11 @@ pub fn all_sums<const D: usize>(
     sums: Sums<'_, D>,
 ) -> Result<(), StepError> {
     let mut sums = Some(sums);
-    with_all(
-        world,
-        declared,
-        terms,
-        None,
-        &mut |term| match sums.take() {
-            Some(sums) => interactions_with(world, &*world.kernel, term, sums),
-            None => Ok(()),
-        },
-    )
+    let mut with = |term: &dyn RowTerm<D>| match sums.take() {
+        Some(sums) => interactions_with(world, &*world.kernel, term, sums),
+        None => Ok(()),
+    };
+    with_all(world, declared, terms, None, &mut with)
 }
 
 /// Passes all terms as one to `with`, each held to its declaration while it looks its columns up.
@@ -124,34 +119,26 @@ impl<const D: usize> RowTerm<D> for TermChain<'_, D> {
 }
 
 /// The sweep for a kernel and a term known by type or as objects.
-pub fn interactions_with<const D: usize, K, T>(
+pub fn interactions_with<const D: usize, K: Sampler + ?Sized, T: RowTerm<D> + ?Sized>(
     world: &World<D>,
     kernel: &K,
     term: &T,
     sums: Sums<'_, D>,
-) -> Result<(), StepError>
-where
-    K: Sampler + ?Sized,
-    T: RowTerm<D> + ?Sized,
-{
+) -> Result<(), StepError> {
     let start = Rates::from_acceleration(world.gravity + world.driving);
     let half = world.lists.sweep_half.as_ref();
     sums_from(world, kernel, term, start, |i| is_wanted(half, i), sums)
 }
 
 /// The sums of the particles that are `wanted`, from those that each starts with.
-fn sums_from<const D: usize, K, T>(
+fn sums_from<const D: usize, K: Sampler + ?Sized, T: RowTerm<D> + ?Sized>(
     world: &World<D>,
     kernel: &K,
     term: &T,
     start: Rates<D>,
     wanted: impl Fn(usize) -> bool + Sync,
     sums: Sums<'_, D>,
-) -> Result<(), StepError>
-where
-    K: Sampler + ?Sized,
-    T: RowTerm<D> + ?Sized,
-{
+) -> Result<(), StepError> {
     let sweep = Sweep::new(world, kernel)?;
     let count = sums.acceleration.len().div_ceil(CHUNK);
     let more = Some(sums.more).filter(|more| !more.is_empty());
