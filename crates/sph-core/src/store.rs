@@ -112,13 +112,13 @@ impl<const D: usize> Store<D> {
         if !cfg!(debug_assertions) {
             return Ok(());
         }
-        let undeclared = self.watch.end();
+        let undeclared = self.watch.end().join(" and ");
         match undeclared.is_empty() {
             true => Ok(()),
-            false => Err(StepError::stage(
-                name(),
-                format!("it {} without declaring it", undeclared.join(" and ")),
-            )),
+            false => {
+                let why = format!("it {undeclared} without declaring it");
+                Err(StepError::stage(name(), why))
+            }
         }
     }
 

@@ -228,10 +228,9 @@ impl Link {
         }
         Ok(())
     }
-}
 
-/// Methods of a solve, in which no rank may fail: after [`any`](Link::any) has found that none has, they return no error.
-impl Link {
+    // Methods of a solve, in which no rank may fail: after `any` has found that none has, they return no error.
+
     /// The result of messages in a solve; none if they fail, of which the next check between ranks knows.
     fn held<T, E>(&self, sent: Result<T, E>) -> Option<T> {
         if sent.is_err() {

@@ -165,7 +165,11 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                 };
                 let n = dispatch_at(width, body);
                 let inside = &inside[..n];
-                hidden.part(members.with(inside), width.lanes(), &mut values.distance2);
+                let near = Members {
+                    candidates: inside,
+                    ..members
+                };
+                hidden.part(near, width.lanes(), &mut values.distance2);
                 let needed = inside.len() * width.lanes();
                 let value = &mut values.value[..needed];
                 kernel.value(&values.distance2[..needed], value);

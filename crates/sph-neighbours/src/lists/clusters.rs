@@ -131,7 +131,6 @@ impl Clusters {
     }
 
     /// Fills `self` with the clusters of `all`, cluster by cluster in parallel, and one number per particle along with it.
-    ///
     /// `cluster` gets the members, room for as many candidates as they have and the members' numbers, and returns how many
     /// candidates it left.
     pub(crate) fn fill<S: Default + Send>(

@@ -13,14 +13,10 @@ pub(crate) struct Members<'a> {
     pub candidates: &'a [u32],
 }
 
-impl<'a> Members<'a> {
+impl Members<'_> {
     #[inline(always)]
     pub fn range(&self) -> Range<usize> {
         self.from..self.from + self.count
-    }
-
-    pub fn with(self, candidates: &'a [u32]) -> Self {
-        Members { candidates, ..self }
     }
 }
 

@@ -52,8 +52,7 @@ impl<const D: usize> DepthGauge<D> {
     /// # Errors
     /// If there are no positions or volumes, or another rank has failed.
     pub fn depth(&self, world: &World<D>) -> Result<f64, StepError> {
-        let position = world.free.get(fields::POSITION)?;
-        let volume = world.free.get(fields::VOLUME)?;
+        let (position, volume) = world.free.all((fields::POSITION, fields::VOLUME))?;
         let [sum] = world.sums(|i| [volume[i] * self.share(&position[i])])?;
         Ok(sum / self.area())
     }

@@ -139,10 +139,8 @@ fn near<const D: usize, N: PartialEq + Sync>(
     let before = |t: usize| {
         let mut found = Vec::new();
         let (x, own) = (place(t), number(t));
-        if !boxes
-            .iter()
-            .any(|(other, of)| *other != own && within(&x, of))
-        {
+        let mut others = boxes.iter().filter(|(other, _)| *other != own);
+        if !others.any(|(_, of)| within(&x, of)) {
             return found;
         }
         grid.ranges(&x, radius, |range| {

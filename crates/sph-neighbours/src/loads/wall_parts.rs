@@ -98,7 +98,6 @@ struct SeparateWalls<const D: usize> {
 struct WallMember {
     member: usize,
     particle: usize,
-    /// The only wall that it sees.
     only: Option<u32>,
     /// Its walls among the pieces, where there are several.
     pieces: Range<usize>,
@@ -134,7 +133,6 @@ fn sum<const D: usize>(
 }
 
 impl<const D: usize> SeparateWalls<D> {
-    /// Looks at the walls of the wanted members of a cluster.
     fn take(&mut self, world: &World<D>, cluster: &Cluster<'_, D>, wanted: impl Fn(usize) -> bool) {
         let set = &world.walls;
         self.near.clear();

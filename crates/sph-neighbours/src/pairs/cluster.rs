@@ -25,7 +25,6 @@ pub struct Cluster<'a, const D: usize> {
     pub(crate) scaled: bool,
     /// True if a wall is within reach of any member.
     pub(crate) beside: bool,
-    /// True if images across periodic faces may be nearer.
     pub(crate) wraps: bool,
     pub(crate) buffers: &'a mut Buffers<D>,
 }
@@ -181,11 +180,9 @@ impl<const D: usize> Cluster<'_, D> {
     pub fn walls(&self, member: usize) -> Neighbourhood<'_, D> {
         let particle = self.members.from + member;
         // Most clusters are away from walls.
+        let (walls, contacts) = (&self.buffers.walls, self.contacts);
         let (wall, contacts) = match self.beside {
-            true => (
-                self.buffers.walls[member].row(),
-                self.contacts.of_particle(particle),
-            ),
+            true => (walls[member].row(), contacts.of_particle(particle)),
             false => (Row::empty(), ContactRow::NONE),
         };
         Neighbourhood {

@@ -46,7 +46,6 @@ pub(crate) struct Group {
     pub count: u32,
     /// The end of its columns.
     pub to: u32,
-    /// True if images across periodic faces may be nearer.
     pub wraps: bool,
 }
 

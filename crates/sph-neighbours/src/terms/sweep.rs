@@ -143,9 +143,8 @@ fn sums_from<const D: usize, K: Sampler + ?Sized, T: RowTerm<D> + ?Sized>(
     let count = sums.acceleration.len().div_ceil(CHUNK);
     let more = Some(sums.more).filter(|more| !more.is_empty());
     let all = sums.acceleration.par_chunks_mut(CHUNK);
-    let all = all
-        .zip(blocks_of(sums.scalar, count))
-        .zip(blocks_of(more, count));
+    let all = all.zip(blocks_of(sums.scalar, count));
+    let all = all.zip(blocks_of(more, count));
     let room = || world.lists.pools.sweeps.acquire();
     all.enumerate()
         .for_each_init(room, |room, (block, ((a, mut s), mut m))| {

@@ -50,7 +50,6 @@ pub struct Planning<'a, const D: usize> {
     pub shown: &'a [String],
 }
 
-/// The offers of all parts, each with its kind of plugin.
 type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {

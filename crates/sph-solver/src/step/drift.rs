@@ -10,7 +10,6 @@ use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, writes_any};
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
 /// The stage in which walls move.
@@ -63,7 +62,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Particles and walls follow their velocities for a time.
     fn advance(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
         self.carry(fields::POSITION, dt)?;

@@ -11,12 +11,10 @@ use sph_rheology::state::Laws;
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 1024;
 
 type Account = Field<Scalar>;
 
-/// The account of a work of this project.
 fn own(work: EnergyWork) -> Account {
     ENERGY_WORKS[work as usize]
 }
@@ -48,7 +46,6 @@ fn of_terms(kind: &str) -> Option<Account> {
     })
 }
 
-/// The account of the work of a kind's hooks.
 fn of_hooks(kind: &str) -> Account {
     match kind_of(kind).map(|kind| kind.work) {
         Some(Work::Damping) => own(EnergyWork::Damping),
@@ -66,9 +63,7 @@ pub struct EnergyBudget<const D: usize> {
     laws: Laws,
     /// The account of every term, by its name; none: the pressure.
     terms: Vec<(String, Option<Account>)>,
-    /// The accounts of the classes of terms.
     classes: Vec<Account>,
-    /// Account of the work of every hook, in their order.
     hooks: Vec<Account>,
     kicker: Option<usize>,
     /// Velocities before the kick, m/s.
@@ -171,8 +166,7 @@ impl<const D: usize> EnergyBudget<D> {
         let now = self.compression(world, density)?;
         let booked = world.free.get(BOOKED_COMPRESSION)?;
         if booked.iter().any(|b| b.is_nan()) {
-            let mass = world.free.get(fields::MASS)?;
-            let velocity = world.free.get(fields::VELOCITY)?;
+            let (mass, velocity) = world.free.all((fields::MASS, fields::VELOCITY))?;
             let position = world.free.get(fields::POSITION)?;
             let start = per_particle(now.len(), |i| {
                 let high = -world.steady_gravity.dot(&position[i]);
@@ -326,8 +320,7 @@ impl<const D: usize> EnergyBudget<D> {
     }
 
     fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
-        let mass = world.free.get(fields::MASS)?;
-        let now = world.free.get(fields::VELOCITY)?;
+        let (mass, now) = world.free.all((fields::MASS, fields::VELOCITY))?;
         let gain = per_particle(now.len(), |i| {
             0.5 * mass[i] * (now[i].norm_squared() - self.velocity[i].norm_squared())
         });
@@ -377,7 +370,7 @@ impl<const D: usize> EnergyBudget<D> {
         done.map(|()| sum)
     }
 
-    /// Energy of compression of all particles at densities, J.
+    /// Energy of compression, J.
     fn compression(&self, world: &World<D>, density: &[f64]) -> Result<Vec<f64>, FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();

@@ -11,7 +11,6 @@ use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::hooks::Boundary;
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
 impl<const D: usize> Flow<D> {
@@ -72,10 +71,8 @@ impl<const D: usize> Flow<D> {
 
     /// Measures the depth of the fluid before walls whose movers need it.
     fn look_before_walls(&mut self) -> Result<(), StepError> {
-        let Some(walls) = &self.walls else {
-            return Ok(());
-        };
-        let depth_gauges = walls.depth_gauges();
+        let walls = self.walls.as_ref();
+        let depth_gauges = walls.map_or(Vec::new(), |walls| walls.depth_gauges());
         if depth_gauges.is_empty() {
             return Ok(());
         }

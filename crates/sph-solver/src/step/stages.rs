@@ -173,8 +173,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let mut scalar = world.free.take(field)?;
                 self.sweep(world, &mut acceleration, Some(&mut scalar))?;
                 let free = &world.free;
-                let density = free.get(fields::DENSITY)?;
-                let volume = free.get(fields::VOLUME)?;
+                let (density, volume) = free.all((fields::DENSITY, fields::VOLUME))?;
                 let gamma = world.sum_renormalisation();
                 let half = world.lists.sweep_half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();
