@@ -46,7 +46,7 @@ impl<const D: usize> Parts<D> {
     /// to cost the same: the parts are checked when lists are built next.
     ///
     /// # Errors
-    /// More ranks than particles; messages that fail, another rank that has failed, or a missing column, as everywhere below.
+    /// More ranks than particles; messages that fail, another rank that has failed, a missing column, as everywhere below.
     pub fn divide(
         world: &mut World<D>,
         rings: usize,

@@ -115,7 +115,9 @@ impl<const D: usize> Flow<D> {
                 Ok(())
             }
             Motion::Recall(what) => {
-                let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
+                let stages = self.columns.stages.iter();
+                let stages = stages.filter(|_| what == Recall::State);
+                let writes = stages.flat_map(|a| &a.writes);
                 let by_stages: Vec<_> = writes.map(|f| f.name).collect();
                 self.kept_follows()?;
                 let named = (&self.integrated[..], &by_stages[..]);
