@@ -244,7 +244,6 @@ impl Link {
         self.held(self.mirrored(values));
     }
 
-    /// The largest value of all ranks, in a solve.
     pub(crate) fn most(&self, value: f64) -> f64 {
         let mut value = [value];
         self.held(self.transport.largest(&mut value));

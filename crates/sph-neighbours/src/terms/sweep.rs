@@ -104,7 +104,6 @@ impl<const D: usize> RowTerm<D> for NoTerms {
     fn cluster(&self, _: &mut Cluster<'_, D>, _: &mut [Rates<D>]) {}
 }
 
-/// A term after those before it.
 struct TermChain<'a, const D: usize>(&'a dyn RowTerm<D>, &'a dyn RowTerm<D>);
 
 impl<const D: usize> RowTerm<D> for TermChain<'_, D> {

@@ -56,7 +56,6 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Builds the lists anew, with all ranks where there are several.
     pub(crate) fn rebuild_lists(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(self.world.rebuild_lists()?),

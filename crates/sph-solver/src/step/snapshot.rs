@@ -22,7 +22,6 @@ pub struct Snapshot<const D: usize> {
 }
 
 impl<const D: usize> Snapshot<D> {
-    /// Copies the state; reuses its buffers.
     pub(crate) fn save(
         &mut self,
         world: &World<D>,
