@@ -4,7 +4,7 @@
 const NEAR: f64 = 1e-6;
 
 /// A regular grid of places in the horizontal plane; in two dimensions a line of them along x.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelGrid {
     /// The first place, m.
     pub lower: [f64; 2],
@@ -53,17 +53,8 @@ impl LevelGrid {
         }
     }
 
-    /// The place next to one along an axis, upwards; none behind the last of an axis that is not periodic.
-    pub fn next(&self, place: usize, axis: usize) -> Option<usize> {
-        self.stepped(place, axis, 1)
-    }
-
-    /// The place before one along an axis; none before the first of an axis that is not periodic.
-    pub fn before(&self, place: usize, axis: usize) -> Option<usize> {
-        self.stepped(place, axis, -1)
-    }
-
-    fn stepped(&self, place: usize, axis: usize, by: isize) -> Option<usize> {
+    /// The place some steps from one along an axis, upwards; none beyond the ends of an axis that is not periodic.
+    pub fn step(&self, place: usize, axis: usize, by: isize) -> Option<usize> {
         let (mut index, count) = (self.index(place), self.count[axis] as isize);
         let there = index[axis] as isize + by;
         if !self.periodic[axis] && !(0..count).contains(&there) {
@@ -85,8 +76,7 @@ impl LevelGrid {
                     ([from, (from + 1) % count], steps - whole)
                 }
                 false => {
-                    let last = count.saturating_sub(2);
-                    let from = (steps.max(0.0) as usize).min(last);
+                    let from = (steps.max(0.0) as usize).min(count.saturating_sub(2));
                     let share = (steps - from as f64).clamp(0.0, 1.0);
                     ([from, (from + 1).min(count - 1)], share)
                 }
@@ -121,7 +111,7 @@ impl LevelGrid {
 ///
 /// A place of the wall at the height Z when it was drawn is lifted by ζ(x, y) max(0, min(1, 1 − (Z − z₀)/H)), with the lift ζ of
 /// the bed, its first level z₀ and a height H within which walls that stand in the bed stretch. Beyond the grid walls stay.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bed {
     /// Numbers of the walls that follow it; the bed's own one is the first.
     pub walls: Vec<u32>,
@@ -170,7 +160,6 @@ impl Bed {
     pub fn drawn(grid: LevelGrid, levels: Vec<f64>) -> Self {
         let count = grid.len();
         Bed {
-            walls: Vec::new(),
             grid,
             drawn: levels,
             covered: vec![false; count],
@@ -181,12 +170,7 @@ impl Bed {
             rate: vec![0.0; count],
             shear: vec![[0.0; 2]; count],
             transport: vec![[0.0; 2]; count],
-            fed: 0.0,
-            slid: 0.0,
-            lifted: 0.0,
-            critical: Vec::new(),
-            unit_shear: 0.0,
-            unit_transport: 0.0,
+            ..Bed::default()
         }
     }
 
@@ -201,15 +185,13 @@ impl Bed {
         if !self.grid.has(at) {
             return 0.0;
         }
-        let height = drawn[D - 1] - self.grid.mean(&self.drawn, at);
-        self.grid.mean(&self.lift, at) * self.share(height)
+        self.grid.mean(&self.lift, at) * self.share(drawn[D - 1] - self.grid.mean(&self.drawn, at))
     }
 
     /// True if a point of the walls that was drawn somewhere follows the bed.
     pub fn moves<const D: usize>(&self, drawn: &[f64; D]) -> bool {
         let at = horizontal(drawn);
-        let height = drawn[D - 1] - self.grid.mean(&self.drawn, at);
-        self.grid.has(at) && self.share(height) > 0.0
+        self.grid.has(at) && self.share(drawn[D - 1] - self.grid.mean(&self.drawn, at)) > 0.0
     }
 
     /// The upward velocity of a point of the walls at its present position, m/s.
@@ -249,8 +231,7 @@ impl Bed {
     /// Takes the values of [`numbers`](Self::numbers); the rest of the numbers, or none if there are too few or
     /// impossible ones.
     pub fn put<'a>(&mut self, numbers: &'a [f64]) -> Option<&'a [f64]> {
-        let count = self.lift.len();
-        let (own, rest) = numbers.split_at_checked(6 * count + 3)?;
+        let (own, rest) = numbers.split_at_checked(6 * self.lift.len() + 3)?;
         if !own.iter().all(|x| x.is_finite()) {
             return None;
         }
@@ -299,8 +280,8 @@ mod tests {
         let values: Vec<f64> = (0..grid.len()).map(|k| grid.index(k)[0] as f64).collect();
         assert!((grid.mean(&values, [2.75, -1.0]) - 1.5).abs() < 1e-14);
         assert!((grid.mean(&values, [0.75, -1.0]) - 1.5).abs() < 1e-14);
-        assert_eq!(grid.next(3, 0), Some(0));
-        assert_eq!(grid.next(8, 1), None);
+        assert_eq!(grid.step(3, 0, 1), Some(0));
+        assert_eq!(grid.step(8, 1, 1), None);
         let area: f64 = (0..grid.len()).map(|k| grid.area(k)).sum();
         assert!((area - 2.0 * 0.5).abs() < 1e-14);
     }

@@ -67,8 +67,7 @@ impl<const D: usize> BoxTree<D> {
             return;
         }
         let side = |k: usize| high[k] - low[k];
-        let axes = 0..D;
-        let axis = axes.rev().max_by(|a, b| side(*a).total_cmp(&side(*b)));
+        let axis = (0..D).rev().max_by(|a, b| side(*a).total_cmp(&side(*b)));
         let axis = axis.unwrap_or(0);
         let at = |b: &u32| middle(&self.boxes[*b as usize], *b as usize, axis);
         let ascending = |a: &u32, b: &u32| at(a).total_cmp(&at(b)).then(a.cmp(b));
@@ -180,7 +179,6 @@ impl<const D: usize> BoxTree<D> {
     }
 }
 
-/// Squared distance of a point from a box.
 fn outside<const D: usize>(x: &[f64; D], [low, high]: &Corners<D>) -> f64 {
     let beyond = |k: usize| (low[k] - x[k]).max(x[k] - high[k]).max(0.0);
     (0..D).map(|k| beyond(k).powi(2)).sum()

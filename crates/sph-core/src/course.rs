@@ -28,8 +28,7 @@ pub enum Course {
     /// Values at instants less the first value, joined by the cubic whose slopes are those of the
     /// parabolas through three neighbouring values; at rest before the first and after the last.
     Table {
-        /// Pairs of time, s, and value, ascending in time.
-        /// Shared by the pieces that a wall is drawn in.
+        /// Pairs of time, s, and value, ascending in time. Shared by the pieces that a wall is drawn in.
         rows: Arc<[[f64; 2]]>,
     },
 }
@@ -54,6 +53,16 @@ pub struct Stage {
     pub rate: f64,
     /// d²s/dt².
     pub acceleration: f64,
+}
+
+impl Stage {
+    fn new(value: f64, rate: f64, acceleration: f64) -> Self {
+        Stage {
+            value,
+            rate,
+            acceleration,
+        }
+    }
 }
 
 /// A translation along a direction.
@@ -130,21 +139,11 @@ impl Course {
     /// Value and derivatives at a time ≥ 0.
     pub fn at(&self, t: f64) -> Stage {
         match self {
-            Self::Steady { speed } => Stage {
-                value: speed * t,
-                rate: *speed,
-                acceleration: 0.0,
-            },
-            Self::Ramp { speed, over } if t < *over => Stage {
-                value: 0.5 * speed * t * t / over,
-                rate: speed * t / over,
-                acceleration: speed / over,
-            },
-            Self::Ramp { speed, over } => Stage {
-                value: speed * (t - 0.5 * over),
-                rate: *speed,
-                acceleration: 0.0,
-            },
+            Self::Steady { speed } => Stage::new(speed * t, *speed, 0.0),
+            Self::Ramp { speed, over } if t < *over => {
+                Stage::new(0.5 * speed * t * t / over, speed * t / over, speed / over)
+            }
+            Self::Ramp { speed, over } => Stage::new(speed * (t - 0.5 * over), *speed, 0.0),
             Self::Sum { parts, ramp } => sines(parts, *ramp, t),
             Self::Table { rows } => along(rows, t),
         }
@@ -167,7 +166,6 @@ fn sines(parts: &[SinePart], ramp: f64, t: f64) -> Stage {
     stage
 }
 
-/// The smooth rise from 0 to 1 with its derivatives.
 fn rise(t: f64, over: f64) -> [f64; 3] {
     if t >= over {
         return [1.0, 0.0, 0.0];
@@ -188,10 +186,7 @@ fn along(rows: &[[f64; 2]], t: f64) -> Stage {
         return Stage::default();
     }
     if t >= last[0] {
-        return Stage {
-            value: last[1] - first[1],
-            ..Stage::default()
-        };
+        return Stage::new(last[1] - first[1], 0.0, 0.0);
     }
     let k = rows.partition_point(|row| row[0] <= t) - 1;
     let ([t0, s0], [t1, s1]) = (rows[k], rows[k + 1]);
@@ -201,11 +196,9 @@ fn along(rows: &[[f64; 2]], t: f64) -> Stage {
     let rise = s1 - s0;
     let b = 3.0 * rise - 2.0 * m0 - m1;
     let a = m0 + m1 - 2.0 * rise;
-    Stage {
-        value: s0 - first[1] + x * (m0 + x * (b + x * a)),
-        rate: (m0 + x * (2.0 * b + x * 3.0 * a)) / dt,
-        acceleration: (2.0 * b + 6.0 * a * x) / (dt * dt),
-    }
+    let value = s0 - first[1] + x * (m0 + x * (b + x * a));
+    let rate = (m0 + x * (2.0 * b + x * 3.0 * a)) / dt;
+    Stage::new(value, rate, (2.0 * b + 6.0 * a * x) / (dt * dt))
 }
 
 /// Slope of the parabola through a row and its neighbours; 0 at both ends, where the rest begins.

@@ -23,23 +23,11 @@ pub enum FieldError {
 #[non_exhaustive]
 pub enum PlanError {
     /// A field that no stage writes.
-    #[error("field `{field}`, needed by {reader}, is written by no stage of this scene")]
-    NoWriter {
-        /// The missing field.
-        field: &'static str,
-        /// The work that needs it.
-        reader: String,
-    },
+    #[error("field `{0}`, needed by {1}, is written by no stage of this scene")]
+    NoWriter(&'static str, String),
     /// Two stages that write the same field.
-    #[error("field `{field}` is written by both {first} and {second}: choose one of them")]
-    TwoWriters {
-        /// The contested field.
-        field: &'static str,
-        /// One writer.
-        first: String,
-        /// The other writer.
-        second: String,
-    },
+    #[error("field `{0}` is written by both {1} and {2}: choose one of them")]
+    TwoWriters(&'static str, String, String),
     /// Stages that wait for each other.
     #[error("the stages {0} wait for each other's fields")]
     Cycle(String),
@@ -49,43 +37,22 @@ pub enum PlanError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RegistryError {
-    /// No plugin of that kind has that name.
-    #[error(
-        "there is no {kind} called `{name}`{hint} (registered: {known}; \
-         a plugin of another crate must be mentioned in your binary: `use my_plugin as _;`)"
-    )]
-    Unknown {
-        /// Kind of plugin.
-        kind: &'static str,
-        /// The requested name.
-        name: String,
-        /// Nearest name, as `, did you mean …?`.
-        hint: String,
-        /// All names of the kind.
-        known: String,
-    },
+    /// No plugin of that kind has that name: the whole message.
+    #[error("{0}")]
+    Unknown(String),
     /// Two crates registered the same name.
-    #[error("the {kind} `{name}` is registered twice, by {first} and by {second}")]
+    #[error("the {kind} `{name}` is registered twice, by {} and by {}", .providers[0], .providers[1])]
     Duplicate {
         /// Kind of plugin.
         kind: &'static str,
         /// The contested name.
         name: &'static str,
-        /// One provider.
-        first: &'static str,
-        /// The other provider.
-        second: &'static str,
+        /// Both providers.
+        providers: [&'static str; 2],
     },
-    /// The plugin exists, but not in this dimension.
-    #[error("the {kind} `{name}` has no {dimension}D form")]
-    Dimension {
-        /// Kind of plugin.
-        kind: &'static str,
-        /// The requested name.
-        name: &'static str,
-        /// Dimension of the scene.
-        dimension: usize,
-    },
+    /// The plugin of a kind and a name exists, but not in this dimension.
+    #[error("the {0} `{1}` has no {2}D form")]
+    Dimension(&'static str, &'static str, usize),
     /// A parameter is wrong; the paths are relative to the plugin's table.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Parameters(Vec<SceneProblem>),
@@ -98,12 +65,12 @@ impl RegistryError {
         name: &str,
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Self {
-        RegistryError::Unknown {
-            kind,
-            name: name.to_string(),
-            hint: suggestion(name, known.clone()),
-            known: known.collect::<Vec<_>>().join(", "),
-        }
+        let hint = suggestion(name, known.clone());
+        let known = known.collect::<Vec<_>>().join(", ");
+        RegistryError::Unknown(format!(
+            "there is no {kind} called `{name}`{hint} (registered: {known}; \
+             a plugin of another crate must be mentioned in your binary: `use my_plugin as _;`)"
+        ))
     }
 }
 

@@ -4,74 +4,162 @@ use nalgebra::SMatrix;
 
 use crate::{Symmetric, Vect};
 
-/// One real number per particle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scalar;
+/// The types of columns: as a column, as a value, and as a name for columns of the type.
+macro_rules! types {
+    ($($(#[$doc:meta])+ $kind:ident: $item:ty;)+) => {
+        /// A column of one of the supported types.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Column<const D: usize> {
+            $($kind(Vec<$item>),)+
+        }
 
-/// One vector of D components per particle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Vector;
+        /// The type of a column as a value.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Shape {
+            $($(#[$doc])+ $kind,)+
+        }
 
-/// One unsigned integer per particle (identity, phase).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Index;
+        impl Shape {
+            /// A column of `n` zero entries.
+            pub fn column<const D: usize>(self, n: usize) -> Column<D> {
+                match self {
+                    $(Shape::$kind => Column::$kind(vec![Item::zero(); n]),)+
+                }
+            }
+        }
 
-/// One D × D tensor per particle (a velocity gradient).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tensor;
+        impl<const D: usize> Column<D> {
+            /// Overwrites it with the entries of another column of its type, or with those in some places of the other;
+            /// false if the other has another type.
+            pub(crate) fn copy(&mut self, from: &Self, places: Option<&[u32]>) -> bool {
+                match (self, from) {
+                    $((Column::$kind(to), Column::$kind(from)) => put(to, from, places),)+
+                    _ => false,
+                }
+            }
+        }
 
-/// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SymmetricTensor;
+        $(
+            $(#[$doc])+
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub struct $kind;
+            impl Kind for $kind {
+                type Item<const D: usize> = $item;
+                fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<$item>> {
+                    match column {
+                        Column::$kind(items) => Some(items),
+                        _ => None,
+                    }
+                }
+                fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<$item>> {
+                    match column {
+                        Column::$kind(items) => Some(items),
+                        _ => None,
+                    }
+                }
+                const SHAPE: Shape = Shape::$kind;
+            }
+        )+
+    };
+}
+types! {
+    /// One real number per particle.
+    Scalar: f64;
+    /// One vector of D components per particle.
+    Vector: Vect<D>;
+    /// One unsigned integer per particle (identity, phase).
+    Index: u32;
+    /// One D × D tensor per particle (a velocity gradient).
+    Tensor: SMatrix<f64, D, D>;
+    /// One symmetric tensor in space per particle, for any D (a stress in plane strain has a component out of the plane).
+    SymmetricTensor: Symmetric;
+}
 
-/// A column of one of the supported types.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Column<const D: usize> {
-    Scalar(Vec<f64>),
-    Vector(Vec<Vect<D>>),
-    Index(Vec<u32>),
-    Tensor(Vec<SMatrix<f64, D, D>>),
-    SymmetricTensor(Vec<Symmetric>),
+fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) -> bool {
+    to.clear();
+    match places {
+        None => to.extend_from_slice(from),
+        Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
+    }
+    true
+}
+
+/// The same work on the entries of a column of any type.
+macro_rules! each_type {
+    ($column:expr, $items:ident => $work:expr) => {
+        match $column {
+            $crate::field::Column::Scalar($items) => $work,
+            $crate::field::Column::Vector($items) => $work,
+            $crate::field::Column::Index($items) => $work,
+            $crate::field::Column::Tensor($items) => $work,
+            $crate::field::Column::SymmetricTensor($items) => $work,
+        }
+    };
+}
+pub(crate) use each_type;
+
+/// One entry of a column.
+pub(crate) trait Item: Copy {
+    fn zero() -> Self;
+    /// Writes it behind other bytes.
+    fn pack(&self, to: &mut Vec<u8>);
+    /// Takes it off a message; zero behind the end.
+    fn unpack(from: &mut &[u8]) -> Self;
+}
+
+macro_rules! number {
+    ($number:ty) => {
+        impl Item for $number {
+            fn zero() -> Self {
+                Default::default()
+            }
+            fn pack(&self, to: &mut Vec<u8>) {
+                to.extend_from_slice(&self.to_le_bytes());
+            }
+            fn unpack(from: &mut &[u8]) -> Self {
+                let bytes = from.split_off(..size_of::<Self>()).unwrap_or_default();
+                Self::from_le_bytes(bytes.try_into().unwrap_or_default())
+            }
+        }
+    };
+}
+number!(f64);
+number!(u32);
+
+impl<const R: usize, const C: usize> Item for SMatrix<f64, R, C> {
+    fn zero() -> Self {
+        SMatrix::zeros()
+    }
+    fn pack(&self, to: &mut Vec<u8>) {
+        self.iter().for_each(|x| x.pack(to));
+    }
+    fn unpack(from: &mut &[u8]) -> Self {
+        SMatrix::from_fn(|_, _| f64::unpack(from))
+    }
+}
+
+impl Item for Symmetric {
+    fn zero() -> Self {
+        Symmetric::ZERO
+    }
+    fn pack(&self, to: &mut Vec<u8>) {
+        self.0.iter().for_each(|x| x.pack(to));
+    }
+    fn unpack(from: &mut &[u8]) -> Self {
+        Symmetric(std::array::from_fn(|_| f64::unpack(from)))
+    }
 }
 
 impl<const D: usize> Column<D> {
-    /// Number of entries, and bytes of each.
     pub(crate) fn size(&self) -> [usize; 2] {
         fn size<T>(items: &[T]) -> [usize; 2] {
             [items.len(), size_of::<T>()]
         }
-        match self {
-            Column::Scalar(items) => size(items),
-            Column::Vector(items) => size(items),
-            Column::Index(items) => size(items),
-            Column::Tensor(items) => size(items),
-            Column::SymmetricTensor(items) => size(items),
-        }
+        each_type!(self, items => size(items))
     }
 
-    /// The entries of these slots, in this order.
-    pub(crate) fn picked(&self, slots: &[u32]) -> Self {
-        fn pick<T: Copy>(items: &[T], slots: &[u32]) -> Vec<T> {
-            slots.iter().map(|s| items[*s as usize]).collect()
-        }
-        match self {
-            Column::Scalar(items) => Column::Scalar(pick(items, slots)),
-            Column::Vector(items) => Column::Vector(pick(items, slots)),
-            Column::Index(items) => Column::Index(pick(items, slots)),
-            Column::Tensor(items) => Column::Tensor(pick(items, slots)),
-            Column::SymmetricTensor(items) => Column::SymmetricTensor(pick(items, slots)),
-        }
-    }
-
-    /// Cuts or lengthens it; new entries are zeros.
     pub(crate) fn resize(&mut self, n: usize) {
-        match self {
-            Column::Scalar(items) => items.resize(n, 0.0),
-            Column::Vector(items) => items.resize(n, Vect::zeros()),
-            Column::Index(items) => items.resize(n, 0),
-            Column::Tensor(items) => items.resize(n, SMatrix::zeros()),
-            Column::SymmetricTensor(items) => items.resize(n, Symmetric::ZERO),
-        }
+        each_type!(self, items => items.resize(n, Item::zero()));
     }
 }
 
@@ -79,80 +167,13 @@ impl<const D: usize> Column<D> {
 pub trait Kind: Copy + 'static {
     /// One entry of the column in D dimensions.
     type Item<const D: usize>: Copy + Send + Sync + std::fmt::Debug + 'static;
-    /// A column of `n` zero entries.
-    fn column<const D: usize>(n: usize) -> Column<D>;
     /// The entries, if the column has this type.
     fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>>;
     /// The entries, if the column has this type.
     fn items_mut<const D: usize>(column: &mut Column<D>) -> Option<&mut Vec<Self::Item<D>>>;
-    /// Real components per entry in D dimensions.
-    fn components(dimension: usize) -> usize;
     /// The type as a value.
     const SHAPE: Shape;
 }
-
-/// The type of a column as a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Reals.
-    Scalar,
-    /// Vectors.
-    Vector,
-    /// Unsigned integers.
-    Index,
-    /// D × D tensors.
-    Tensor,
-    /// Symmetric tensors in space.
-    SymmetricTensor,
-}
-
-impl Shape {
-    /// A column of `n` zero entries.
-    pub fn column<const D: usize>(self, n: usize) -> Column<D> {
-        match self {
-            Shape::Scalar => Scalar::column(n),
-            Shape::Vector => Vector::column(n),
-            Shape::Index => Index::column(n),
-            Shape::Tensor => Tensor::column(n),
-            Shape::SymmetricTensor => SymmetricTensor::column(n),
-        }
-    }
-}
-
-macro_rules! kind {
-    ($kind:ident, $item:ty, $zero:expr, $components:expr) => {
-        impl Kind for $kind {
-            type Item<const D: usize> = $item;
-            fn column<const D: usize>(n: usize) -> Column<D> {
-                Column::$kind(vec![$zero; n])
-            }
-            fn items<const D: usize>(column: &Column<D>) -> Option<&Vec<Self::Item<D>>> {
-                match column {
-                    Column::$kind(items) => Some(items),
-                    _ => None,
-                }
-            }
-            fn items_mut<const D: usize>(
-                column: &mut Column<D>,
-            ) -> Option<&mut Vec<Self::Item<D>>> {
-                match column {
-                    Column::$kind(items) => Some(items),
-                    _ => None,
-                }
-            }
-            const SHAPE: Shape = Shape::$kind;
-            fn components(dimension: usize) -> usize {
-                let components: fn(usize) -> usize = $components;
-                components(dimension)
-            }
-        }
-    };
-}
-kind!(Scalar, f64, 0.0, |_| 1);
-kind!(Vector, Vect<D>, Vect::<D>::zeros(), |d| d);
-kind!(Index, u32, 0, |_| 1);
-kind!(Tensor, SMatrix<f64, D, D>, SMatrix::<f64, D, D>::zeros(), |d| d * d);
-kind!(SymmetricTensor, Symmetric, Symmetric::ZERO, |_| 6);
 
 /// A typed name for a column: `Field<Scalar>`, `Field<Vector>` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,7 +204,6 @@ impl<K: Kind> Field<K> {
             name: self.name,
             unit: self.unit,
             meaning: self.meaning,
-            components: K::components,
             shape: K::SHAPE,
         }
     }
@@ -198,8 +218,6 @@ pub struct AnyField {
     pub unit: &'static str,
     /// One sentence.
     pub meaning: &'static str,
-    /// Real components per entry in the given dimension.
-    pub components: fn(usize) -> usize,
     /// Type of the column.
     pub shape: Shape,
 }

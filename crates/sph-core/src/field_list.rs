@@ -8,7 +8,7 @@ pub trait Columns<const D: usize> {
     /// The entries of a column.
     ///
     /// # Errors
-    /// If the column was not declared, or it has another type.
+    /// If the column was not declared, or it has another type; as everywhere below.
     fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError>;
 }
 
@@ -19,9 +19,6 @@ pub trait FieldList {
     /// Calls `each` for every field, in order.
     fn for_each(self, each: impl FnMut(AnyField));
     /// Looks their columns up, in the same order.
-    ///
-    /// # Errors
-    /// As [`Columns::column`].
     fn items<const D: usize>(
         self,
         columns: &impl Columns<D>,

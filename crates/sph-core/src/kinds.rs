@@ -109,7 +109,7 @@ pub struct SuitedPlugin {
 pub type Suits = fn(&FlowNature, Option<&str>) -> Option<SuitedPlugin>;
 
 /// A kind of plugin; declared by [`contract!`](crate::contract).
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct PluginKind {
     /// Name in scene files.
     pub name: &'static str,
@@ -136,12 +136,6 @@ pub struct PluginKind {
 }
 inventory::collect!(PluginKind);
 
-impl std::fmt::Debug for PluginKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name)
-    }
-}
-
 impl PluginKind {
     /// A kind without a default, whose terms and hooks follow those of all kinds with an [order](Self::ordered).
     pub const fn new(name: &'static str, place: Place, purpose: &'static str) -> Self {
@@ -160,12 +154,6 @@ impl PluginKind {
         }
     }
 
-    /// With a default.
-    pub const fn by_default(mut self, plugin: &'static str) -> Self {
-        self.default = Some(plugin);
-        self
-    }
-
     /// With a default that depends on the flow; an empty table of the kind stands for none.
     pub const fn suited(mut self, choice: Suits) -> Self {
         self.suited = choice;
@@ -173,39 +161,9 @@ impl PluginKind {
         self
     }
 
-    /// With a text for scenes that name none, after a semicolon: "explicit if left out".
-    pub const fn absent(mut self, text: &'static str) -> Self {
-        self.absent = text;
-        self
-    }
-
-    /// With a message to scenes that name a plugin and have no use for it.
-    pub const fn idle(mut self, message: &'static str) -> Self {
-        self.idle = Some(message);
-        self
-    }
-
-    /// With a position of its terms and hooks, the least first.
-    pub const fn ordered(mut self, order: u8) -> Self {
-        self.order = order;
-        self
-    }
-
-    /// With an account of its work.
-    pub const fn works(mut self, work: Work) -> Self {
-        self.work = work;
-        self
-    }
-
     /// With plugins in space alone.
     pub const fn in_space(mut self) -> Self {
         self.dimensions = &[3];
-        self
-    }
-
-    /// With a list of its plugins.
-    pub const fn with_plugins(mut self, plugins: fn() -> Vec<PluginInfo>) -> Self {
-        self.plugins = plugins;
         self
     }
 
@@ -219,6 +177,33 @@ impl PluginKind {
         self.default
             .map_or(self.absent.into(), |name| format!("`{name}` if left out"))
     }
+}
+
+/// Methods that set a field.
+macro_rules! setters {
+    ($(#[doc = $doc:literal] $name:ident($value:ident: $type:ty) => $field:ident = $set:expr;)+) => {
+        impl PluginKind {$(
+            #[doc = $doc]
+            pub const fn $name(mut self, $value: $type) -> Self {
+                self.$field = $set;
+                self
+            }
+        )+}
+    };
+}
+setters! {
+    /// With a default.
+    by_default(plugin: &'static str) => default = Some(plugin);
+    /// With a text for scenes that name none, after a semicolon: "explicit if left out".
+    absent(text: &'static str) => absent = text;
+    /// With a message to scenes that name a plugin and have no use for it.
+    idle(message: &'static str) => idle = Some(message);
+    /// With a position of its terms and hooks, the least first.
+    ordered(order: u8) => order = order;
+    /// With an account of its work.
+    works(work: Work) => work = work;
+    /// With a list of its plugins.
+    with_plugins(plugins: fn() -> Vec<PluginInfo>) => plugins = plugins;
 }
 
 /// Every kind of plugin in this binary, by name. Of two with the same name one is left out.

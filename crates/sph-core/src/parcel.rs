@@ -1,22 +1,7 @@
 //! Particles as bytes: how they go from one process to another.
 
-use nalgebra::SMatrix;
-
-use crate::field::{AnyField, Column};
-use crate::{FieldError, Store, Symmetric, Vect};
-
-/// Takes the next bytes off a message.
-fn take<const N: usize>(from: &mut &[u8]) -> [u8; N] {
-    let (item, rest) = from.split_first_chunk().unwrap_or((&[0; N], &[]));
-    *from = rest;
-    *item
-}
-
-fn put(to: &mut Vec<u8>, values: &[f64]) {
-    for value in values {
-        to.extend_from_slice(&value.to_le_bytes());
-    }
-}
+use crate::field::{AnyField, Item, each_type};
+use crate::{FieldError, Store};
 
 impl<const D: usize> Store<D> {
     /// Bytes of one particle over the columns that are `wanted`.
@@ -30,13 +15,7 @@ impl<const D: usize> Store<D> {
         let mut to = Vec::with_capacity(slots.len() * self.parcel_bytes(&wanted));
         let at = || slots.iter().map(|s| *s as usize);
         for entry in self.entries.iter().filter(|e| wanted(&e.field)) {
-            match &entry.column {
-                Column::Scalar(v) => at().for_each(|s| put(&mut to, &[v[s]])),
-                Column::Vector(v) => at().for_each(|s| put(&mut to, v[s].as_slice())),
-                Column::Index(v) => at().for_each(|s| to.extend_from_slice(&v[s].to_le_bytes())),
-                Column::Tensor(v) => at().for_each(|s| put(&mut to, v[s].as_slice())),
-                Column::SymmetricTensor(v) => at().for_each(|s| put(&mut to, &v[s].0)),
-            }
+            each_type!(&entry.column, items => at().for_each(|s| items[s].pack(&mut to)));
         }
         to
     }
@@ -55,21 +34,11 @@ impl<const D: usize> Store<D> {
         if from.len() != expected {
             return Err(FieldError::Length("message", from.len(), expected));
         }
-        fn real(from: &mut &[u8]) -> f64 {
-            f64::from_le_bytes(take(from))
-        }
-        let from = &mut from;
         let at = || slots.iter().map(|s| *s as usize);
         for entry in self.entries.iter_mut().filter(|e| wanted(&e.field)) {
-            match &mut entry.column {
-                Column::Scalar(v) => at().for_each(|s| v[s] = real(from)),
-                Column::Vector(v) => at().for_each(|s| v[s] = Vect::from_fn(|_, _| real(from))),
-                Column::Index(v) => at().for_each(|s| v[s] = u32::from_le_bytes(take(from))),
-                Column::Tensor(v) => at().for_each(|s| v[s] = SMatrix::from_fn(|_, _| real(from))),
-                Column::SymmetricTensor(v) => at().for_each(|s| {
-                    v[s] = Symmetric(std::array::from_fn(|_| real(from)));
-                }),
-            }
+            each_type!(&mut entry.column, items => {
+                at().for_each(|s| items[s] = Item::unpack(&mut from));
+            });
         }
         Ok(())
     }
@@ -85,7 +54,7 @@ impl<const D: usize> Store<D> {
     /// Keeps the particles of these slots, in this order, with all their columns.
     pub fn keep_slots(&mut self, slots: &[u32]) {
         for entry in &mut self.entries {
-            entry.column = entry.column.picked(slots);
+            entry.column = entry.picked(slots);
         }
         self.len = slots.len();
     }
@@ -95,7 +64,7 @@ impl<const D: usize> Store<D> {
 mod tests {
     use super::*;
     use crate::field::{Index, Scalar, SymmetricTensor, Tensor, Vector};
-    use crate::{Field, Role};
+    use crate::{Field, Role, Vect};
 
     const S: Field<Scalar> = Field::new("s", "1", "a scalar");
     const V: Field<Vector> = Field::new("v", "1", "a vector");

@@ -28,17 +28,14 @@ pub fn plan(
     let is_source = |f: &AnyField| sources.contains(f);
     let writer = |field: &AnyField, reader: &str| -> Result<usize, PlanError> {
         let mut found = (0..stages.len()).filter(|&s| access[s].writes.contains(field));
-        let first = found.next().ok_or_else(|| PlanError::NoWriter {
-            field: field.name,
-            reader: reader.to_string(),
-        })?;
-        match found.next() {
+        let missing = || PlanError::NoWriter(field.name, reader.to_string());
+        let first = found.next().ok_or_else(missing)?;
+        match found
+            .next()
+            .map(|second| [first, second].map(|s| stages[s].name()))
+        {
             None => Ok(first),
-            Some(second) => Err(PlanError::TwoWriters {
-                field: field.name,
-                first: stages[first].name(),
-                second: stages[second].name(),
-            }),
+            Some([first, second]) => Err(PlanError::TwoWriters(field.name, first, second)),
         }
     };
 
@@ -133,7 +130,7 @@ mod tests {
         );
         let other = Work("other c", Access::none().writes(C));
         let double = plan(&[&c, &other], &[C.any()], &[B.any()]).unwrap_err();
-        assert!(matches!(double, PlanError::TwoWriters { field: "c", .. }));
+        assert!(matches!(double, PlanError::TwoWriters("c", ..)));
         let b = Work("b", Access::none().here(C).writes(B));
         let cycle = plan(&[&c, &b], &[C.any()], &[]).unwrap_err();
         assert!(matches!(cycle, PlanError::Cycle(_)));

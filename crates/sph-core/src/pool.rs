@@ -10,7 +10,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub struct Pool<T>(Mutex<Vec<Box<T>>>);
 
 impl<T> Default for Pool<T> {
-    /// Without a buffer.
     fn default() -> Self {
         Pool(Mutex::default())
     }
@@ -35,7 +34,6 @@ impl<T: Default> Pool<T> {
 
 /// A buffer that goes back when it is dropped.
 pub struct PoolGuard<'a, T> {
-    /// There until then.
     item: Option<Box<T>>,
     pool: &'a Pool<T>,
 }

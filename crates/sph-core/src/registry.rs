@@ -73,46 +73,30 @@ pub struct Registry<E: Contract> {
     entries: Vec<&'static E>,
 }
 
-impl<E: Contract> Default for Registry<E> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl<E: Contract> Registry<E> {
-    /// No plugin at all; global registrations are ignored.
-    pub fn new() -> Self {
-        Registry {
-            entries: Vec::new(),
-        }
-    }
-
     /// Every plugin of the kind in this binary.
     ///
     /// # Errors
-    /// If two crates registered the same name.
+    /// If two have the same name, as below.
     pub fn discovered() -> Result<Self, RegistryError> {
-        let mut all = E::discovered().into_iter();
-        all.try_fold(Self::new(), Self::with)
+        Self::from_entries(E::discovered())
     }
 
-    /// Adds a plugin.
-    ///
-    /// # Errors
-    /// If the name is taken.
-    pub fn with(mut self, entry: &'static E) -> Result<Self, RegistryError> {
-        let info = entry.info();
-        if let Some(other) = self.entries.iter().find(|e| e.info().name == info.name) {
-            return Err(RegistryError::Duplicate {
-                kind: E::KIND.name,
-                name: info.name,
-                first: other.info().provider,
-                second: info.provider,
-            });
+    /// These plugins alone; global registrations are ignored.
+    pub fn from_entries(mut entries: Vec<&'static E>) -> Result<Self, RegistryError> {
+        entries.sort_by_key(|e| e.info().name);
+        for two in entries.windows(2).map(|two| [two[0], two[1]].map(E::info)) {
+            if two[0].name == two[1].name {
+                let (kind, name) = (E::KIND.name, two[0].name);
+                let providers = two.map(|info| info.provider);
+                return Err(RegistryError::Duplicate {
+                    kind,
+                    name,
+                    providers,
+                });
+            }
         }
-        self.entries.push(entry);
-        self.entries.sort_by_key(|e| e.info().name);
-        Ok(self)
+        Ok(Registry { entries })
     }
 
     /// The plugin of that name.
@@ -198,13 +182,9 @@ pub trait Makes<const D: usize>: Contract {
 pub fn typed<P: DeserializeOwned + JsonSchema>(table: &Table) -> Result<P, RegistryError> {
     let mut value = Value::Table(table.clone());
     conform(&mut value, &schema_of::<P>()).map_err(RegistryError::Parameters)?;
-    value
-        .try_into()
-        .map_err(|e: toml::de::Error| one_problem(e.message()))
-}
-
-fn one_problem(message: &str) -> RegistryError {
-    RegistryError::Parameters(vec![SceneProblem::new("", message)])
+    value.try_into().map_err(|e: toml::de::Error| {
+        RegistryError::Parameters(vec![SceneProblem::new("", e.message())])
+    })
 }
 
 /// The JSON schema of a parameter type; that of a transparent wrapper has the parameters of the type within and its own
@@ -258,11 +238,7 @@ macro_rules! contract {
                 &self,
                 table: &$crate::reexport::toml::Table,
             ) -> Result<Box<dyn $tr<D>>, $crate::RegistryError> {
-                let absent = || $crate::RegistryError::Dimension {
-                    kind: $kind,
-                    name: self.info.name,
-                    dimension: D,
-                };
+                let absent = || $crate::RegistryError::Dimension($kind, self.info.name, D);
                 let built: Box<dyn std::any::Any> = match D {
                     2 => Box::new(self.build_2d.ok_or_else(absent)?(table)?),
                     3 => Box::new(self.build_3d.ok_or_else(absent)?(table)?),

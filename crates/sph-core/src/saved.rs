@@ -7,33 +7,9 @@ use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};
 #[derive(Clone, Debug, Default)]
 pub struct Saved<const D: usize> {
     len: usize,
-    taken: Vec<Removed>,
-    born: Inserted,
+    removed: Vec<Removed>,
+    inserted: Inserted,
     columns: Vec<(&'static str, Column<D>)>,
-}
-
-/// Overwrites a column with the entries of another of its type, or with those in some places of the other.
-fn copy<const D: usize>(
-    to: &mut Column<D>,
-    (name, from): (&'static str, &Column<D>),
-    places: Option<&[u32]>,
-) -> Result<(), FieldError> {
-    fn put<T: Copy>(to: &mut Vec<T>, from: &[T], places: Option<&[u32]>) {
-        to.clear();
-        match places {
-            None => to.extend_from_slice(from),
-            Some(places) => to.extend(places.iter().map(|&p| from[p as usize])),
-        }
-    }
-    match (to, from) {
-        (Column::Scalar(to), Column::Scalar(from)) => put(to, from, places),
-        (Column::Vector(to), Column::Vector(from)) => put(to, from, places),
-        (Column::Index(to), Column::Index(from)) => put(to, from, places),
-        (Column::Tensor(to), Column::Tensor(from)) => put(to, from, places),
-        (Column::SymmetricTensor(to), Column::SymmetricTensor(from)) => put(to, from, places),
-        _ => return Err(FieldError::Type(name)),
-    }
-    Ok(())
 }
 
 impl<const D: usize> Saved<D> {
@@ -53,7 +29,7 @@ impl<const D: usize> Store<D> {
     /// Copies every state column; reuses the buffers.
     ///
     /// # Errors
-    /// If a column has changed its type since it was copied last.
+    /// If a column has changed its type since it was copied last, as everywhere below.
     pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
         let state = || self.entries.iter().filter(|e| e.role == Role::State);
         let names = saved.columns.iter().map(|c| c.0);
@@ -62,23 +38,21 @@ impl<const D: usize> Store<D> {
             saved.columns = state().map(|e| (e.name, e.field.shape.column(0))).collect();
         }
         for (entry, (_, to)) in state().zip(&mut saved.columns) {
-            copy(to, (entry.name, &entry.column), None)?;
+            let same = to.copy(&entry.column, None);
+            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
         }
         saved.len = self.len;
-        saved.taken.clone_from(&self.taken);
-        saved.born = self.born;
+        saved.removed.clone_from(&self.removed);
+        saved.inserted = self.inserted;
         Ok(())
     }
 
     /// Puts everything back as it was saved: particles that left come back, particles born since are gone. State
     /// columns that have come since become zero; derived ones have to be computed anew.
-    ///
-    /// # Errors
-    /// If a column has changed its type.
     pub fn restore_state(&mut self, saved: &Saved<D>) -> Result<(), FieldError> {
         self.set_len(saved.len);
-        self.taken.clone_from(&saved.taken);
-        self.born = saved.born;
+        self.removed.clone_from(&saved.removed);
+        self.inserted = saved.inserted;
         self.put_state(saved, None, |_| true)
     }
 
@@ -87,7 +61,7 @@ impl<const D: usize> Store<D> {
     /// copies were made become zero.
     ///
     /// # Errors
-    /// If a column has changed its type, or another number of particles was copied.
+    /// If, besides, another number of particles was copied.
     pub fn put_state(
         &mut self,
         saved: &Saved<D>,
@@ -105,7 +79,8 @@ impl<const D: usize> Store<D> {
             if places.map_or(copied, <[u32]>::len) != len {
                 return Err(FieldError::Length(entry.name, copied, len));
             }
-            copy(&mut entry.column, (entry.name, from), places)?;
+            let same = entry.column.copy(from, places);
+            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
         }
         Ok(())
     }
@@ -127,7 +102,7 @@ mod tests {
         *store.get_mut(fields::IDENTITY).unwrap() = vec![0, 1, 2];
         let mut saved = Saved::default();
         store.save_state(&mut saved).unwrap();
-        store.permute(&[2, 0, 1]);
+        store.permute(Role::State, &[2, 0, 1]);
         store.get_mut(fields::MASS).unwrap().fill(9.0);
         store.get_mut(fields::DENSITY).unwrap().fill(9.0);
         store.add(fields::PRESSURE, Role::State);

@@ -31,53 +31,9 @@ impl Access {
         Access::default()
     }
 
-    /// Adds columns read at the particle.
-    pub fn here(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.here, f));
-        self
-    }
-
-    /// Adds columns read at the particle and at its neighbours.
-    pub fn both(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| {
-            push(&mut self.here, f);
-            push(&mut self.neighbours, f);
-        });
-        self.sweep = true;
-        self
-    }
-
-    /// Adds columns read at the neighbours.
-    pub fn neighbours(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.neighbours, f));
-        self.sweep = true;
-        self
-    }
-
-    /// Adds columns written at the particle.
-    pub fn writes(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.writes, f));
-        self
-    }
-
-    /// Adds columns written at the particle that carry history.
-    pub fn remembers(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| {
-            push(&mut self.remembers, f);
-            push(&mut self.writes, f);
-        });
-        self
-    }
-
     /// The same columns, at neighbours of neighbours: `rings` times from a particle to its neighbours.
     pub fn rings(self, rings: usize) -> Self {
         Access { rings, ..self }
-    }
-
-    /// Adds columns that are read where a scene has them.
-    pub fn where_there(mut self, fields: impl FieldList) -> Self {
-        fields.for_each(|f| push(&mut self.where_there, f));
-        self
     }
 
     /// Joins the accesses of two pieces of work done in one walk.
@@ -104,6 +60,36 @@ impl Access {
     }
 }
 
+/// Methods that add fields to lists.
+macro_rules! adders {
+    ($(#[doc = $doc:literal] $name:ident => [$($list:ident),+], sweep: $sweep:literal;)+) => {
+        impl Access {$(
+            #[doc = $doc]
+            pub fn $name(mut self, fields: impl FieldList) -> Self {
+                fields.for_each(|f| {$(
+                    push(&mut self.$list, f);
+                )+});
+                self.sweep |= $sweep;
+                self
+            }
+        )+}
+    };
+}
+adders! {
+    /// Adds columns read at the particle.
+    here => [here], sweep: false;
+    /// Adds columns read at the particle and at its neighbours.
+    both => [here, neighbours], sweep: true;
+    /// Adds columns read at the neighbours.
+    neighbours => [neighbours], sweep: true;
+    /// Adds columns written at the particle.
+    writes => [writes], sweep: false;
+    /// Adds columns written at the particle that carry history.
+    remembers => [remembers, writes], sweep: false;
+    /// Adds columns that are read where a scene has them.
+    where_there => [where_there], sweep: false;
+}
+
 fn push(list: &mut Vec<AnyField>, field: AnyField) {
     if !list.contains(&field) {
         list.push(field);
@@ -126,9 +112,8 @@ pub trait Stage<C>: Declares + Send {
     /// When a column is missing or a value is impossible; the step is then rolled back.
     fn run(&mut self, context: &mut C) -> Result<(), StepError>;
     /// The reason why it needs all particles at once, if it does: it adds up over all of them, or goes through their
-    /// neighbours' neighbours.
-    /// Otherwise it may run for some of them, with copies of others around, whose sums over neighbours come from their
-    /// owners after it.
+    /// neighbours' neighbours. Otherwise it may run for some of them, with copies of others around, whose sums over
+    /// neighbours come from their owners after it.
     fn needs_all(&self) -> Option<&'static str> {
         None
     }
@@ -142,7 +127,6 @@ pub trait Stage<C>: Declares + Send {
     }
 }
 
-/// A stage that is one function.
 struct FunctionStage<F> {
     name: &'static str,
     access: Access,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Symmetric, Vect};
+use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Vect};
 
 /// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,27 +23,27 @@ pub(crate) struct Entry<const D: usize> {
     pub column: Column<D>,
 }
 
+impl<const D: usize> Entry<D> {
+    /// The entries of these slots, in this order.
+    pub fn picked(&self, slots: &[u32]) -> Column<D> {
+        let mut picked = self.field.shape.column(0);
+        picked.copy(&self.column, Some(slots));
+        picked
+    }
+}
+
 /// The columns of one set of particles.
 #[derive(Default)]
 pub struct Store<const D: usize> {
     pub(crate) len: usize,
     pub(crate) entries: Vec<Entry<D>>,
-    /// Particles taken out.
-    pub(crate) taken: Vec<Removed>,
-    /// Particles born.
-    pub(crate) born: Inserted,
+    /// Particles taken out so far, by outlet and phase.
+    pub removed: Vec<Removed>,
+    /// Particles born so far.
+    pub inserted: Inserted,
     pub(crate) watch: Watch,
-    pub(crate) spare: SortBuffers<D>,
-}
-
-/// A column of each kind to sort into: allocated when particles of such a column are first sorted.
-#[derive(Default)]
-pub(crate) struct SortBuffers<const D: usize> {
-    scalar: Vec<f64>,
-    vector: Vec<Vect<D>>,
-    index: Vec<u32>,
-    tensor: Vec<nalgebra::SMatrix<f64, D, D>>,
-    symmetric: Vec<Symmetric>,
+    /// A column of each type to sort into: allocated when particles of such a column are first sorted.
+    pub(crate) spare: Vec<Column<D>>,
 }
 
 /// Particles of one phase that one outlet has taken out of a store.
@@ -112,13 +112,13 @@ impl<const D: usize> Store<D> {
         if !cfg!(debug_assertions) {
             return Ok(());
         }
-        let undeclared = self.watch.end();
+        let undeclared = self.watch.end().join(" and ");
         match undeclared.is_empty() {
             true => Ok(()),
-            false => Err(StepError::stage(
-                name(),
-                format!("it {} without declaring it", undeclared.join(" and ")),
-            )),
+            false => {
+                let why = format!("it {undeclared} without declaring it");
+                Err(StepError::stage(name(), why))
+            }
         }
     }
 
@@ -175,32 +175,23 @@ impl<const D: usize> Store<D> {
     /// The entries of a column.
     ///
     /// # Errors
-    /// If the column was not declared, or it has another type.
+    /// If the column was not declared, or it has another type; as everywhere below.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         self.column(field)
     }
 
     /// The entries of the columns of several fields in a tuple.
-    ///
-    /// # Errors
-    /// As [`get`](Self::get).
     pub fn all<F: FieldList>(&self, fields: F) -> Result<F::Items<'_, D>, FieldError> {
         fields.items(self)
     }
 
     /// The entries of a column for the division of a flow, which no work declares.
-    ///
-    /// # Errors
-    /// As [`get`](Self::get).
     pub fn unwatched<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
         let items = K::items(&self.entry(field.name)?.column);
         items.map(Vec::as_slice).ok_or(FieldError::Type(field.name))
     }
 
     /// The entries of a column, to be changed.
-    ///
-    /// # Errors
-    /// If the column was not declared, or it has another type.
     pub fn get_mut<K: Kind>(
         &mut self,
         field: Field<K>,
@@ -212,9 +203,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Takes a column out so that it can be written while others are read.
-    ///
-    /// # Errors
-    /// If the column was not declared, or it has another type.
     pub fn take<K: Kind>(&mut self, field: Field<K>) -> Result<Vec<K::Item<D>>, FieldError> {
         self.get_mut(field).map(std::mem::take)
     }
@@ -222,7 +210,7 @@ impl<const D: usize> Store<D> {
     /// Puts a taken column back.
     ///
     /// # Errors
-    /// If the column is not there, has another type, or the length has changed.
+    /// If, besides, the length has changed, as below.
     pub fn put<K: Kind>(
         &mut self,
         field: Field<K>,
@@ -235,31 +223,17 @@ impl<const D: usize> Store<D> {
         Ok(())
     }
 
-    /// Sorts every state column: entry `k` becomes the old entry `order[k]`. Derived ones are left as they are, to be computed anew.
-    pub fn permute(&mut self, order: &[u32]) {
-        self.permute_role(Role::State, order);
-    }
-
-    /// Sorts the derived columns as [`Store::permute`] has sorted the state, for work that goes on with them.
-    pub fn permute_derived(&mut self, order: &[u32]) {
-        self.permute_role(Role::Derived, order);
-    }
-
-    fn permute_role(&mut self, role: Role, order: &[u32]) {
-        fn gather<T: Copy>(items: &mut Vec<T>, order: &[u32], spare: &mut Vec<T>) {
-            spare.clear();
-            spare.extend(order.iter().map(|&o| items[o as usize]));
-            std::mem::swap(items, spare);
-        }
-        let spare = &mut self.spare;
+    /// Sorts all columns of a role: entry `k` becomes the old entry `order[k]`. Derived ones are mostly left as they are,
+    /// to be computed anew.
+    pub fn permute(&mut self, role: Role, order: &[u32]) {
         for entry in self.entries.iter_mut().filter(|e| e.role == role) {
-            match &mut entry.column {
-                Column::Scalar(items) => gather(items, order, &mut spare.scalar),
-                Column::Vector(items) => gather(items, order, &mut spare.vector),
-                Column::Index(items) => gather(items, order, &mut spare.index),
-                Column::Tensor(items) => gather(items, order, &mut spare.tensor),
-                Column::SymmetricTensor(items) => gather(items, order, &mut spare.symmetric),
-            }
+            let spare = &mut self.spare;
+            let place = (0..spare.len()).find(|k| spare[*k].copy(&entry.column, Some(order)));
+            let place = place.unwrap_or_else(|| {
+                spare.push(entry.picked(order));
+                spare.len() - 1
+            });
+            std::mem::swap(&mut entry.column, &mut spare[place]);
         }
     }
 
@@ -293,9 +267,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Overwrites a column by name with plain reals.
-    ///
-    /// # Errors
-    /// If the column is missing, of another type, or of another length.
     pub fn set_real(&mut self, name: &'static str, values: &[f64]) -> Result<(), FieldError> {
         let len = self.len;
         match self.column_mut(name)? {
@@ -322,9 +293,6 @@ impl<const D: usize> Store<D> {
     }
 
     /// Overwrites a column by name with unsigned integers.
-    ///
-    /// # Errors
-    /// If the column is missing, of another type, or of another length.
     pub fn set_index(&mut self, name: &'static str, values: &[u32]) -> Result<(), FieldError> {
         let len = self.len;
         match self.column_mut(name)? {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::store::{Entry, Inserted, Removed, Store};
+use crate::store::{Entry, Store};
 use crate::{FieldError, fields};
 
 impl<const D: usize> Store<D> {
@@ -14,7 +14,7 @@ impl<const D: usize> Store<D> {
         let leaves = |slot: &u32| leaves.get(*slot as usize) == Some(&true);
         let (out, stay): (Vec<u32>, Vec<u32>) = (0..self.len as u32).partition(leaves);
         let entries = self.entries.iter().map(|entry| Entry {
-            column: entry.column.picked(&out),
+            column: entry.picked(&out),
             ..*entry
         });
         let taken = Store {
@@ -25,32 +25,12 @@ impl<const D: usize> Store<D> {
         taken
     }
 
-    /// Particles taken out so far, by outlet and phase.
-    pub fn removed(&self) -> &[Removed] {
-        &self.taken
-    }
-
-    /// Sets the counts of removed particles.
-    pub fn set_removed(&mut self, taken: Vec<Removed>) {
-        self.taken = taken;
-    }
-
-    /// Particles born so far.
-    pub fn inserted(&self) -> Inserted {
-        self.born
-    }
-
-    /// Sets the counts of inserted particles.
-    pub fn set_inserted(&mut self, born: Inserted) {
-        self.born = born;
-    }
-
     /// Adds particles behind the others, with new identities, and zeros in all other columns. Gives their slots.
     ///
     /// # Errors
     /// If there is no column of identities, or they are used up.
     pub fn give_birth(&mut self, count: usize) -> Result<Range<usize>, FieldError> {
-        let first = self.born.identities;
+        let first = self.inserted.identities;
         let exhausted = FieldError::Length(fields::IDENTITY.name, count, u32::MAX as usize);
         let next = u32::try_from(count).ok().and_then(|n| first.checked_add(n));
         let next = next.ok_or(exhausted)?;
@@ -60,8 +40,8 @@ impl<const D: usize> Store<D> {
         for (slot, id) in slots.clone().zip(first..next) {
             identity[slot] = id;
         }
-        self.born.identities = next;
-        self.born.particles += count as u64;
+        self.inserted.identities = next;
+        self.inserted.particles += count as u64;
         Ok(slots)
     }
 }
@@ -69,7 +49,7 @@ impl<const D: usize> Store<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Role, Saved};
+    use crate::{Inserted, Role, Saved};
 
     /// Particles of these identities, each with a mass of one more.
     fn store(identities: &[u32]) -> Store<2> {
@@ -101,7 +81,7 @@ mod tests {
             identities,
             ..Inserted::default()
         };
-        store.set_inserted(given(3));
+        store.inserted = given(3);
         let mut saved = Saved::default();
         store.save_state(&mut saved).unwrap();
         store.take_out(&[true, false, true]);
@@ -114,8 +94,8 @@ mod tests {
         assert_eq!(store.get(fields::IDENTITY).unwrap(), [0, 1, 2]);
         assert_eq!(store.get(fields::MASS).unwrap(), [1.0, 2.0, 3.0]);
         assert_eq!(store.get(fields::DENSITY).unwrap().len(), 3);
-        assert_eq!(store.inserted().identities, 3, "the step is done again");
-        store.set_inserted(given(u32::MAX - 1));
+        assert_eq!(store.inserted.identities, 3, "the step is done again");
+        store.inserted = given(u32::MAX - 1);
         assert!(store.give_birth(2).is_err(), "identities are used up");
     }
 }

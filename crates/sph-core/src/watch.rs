@@ -12,7 +12,6 @@ pub(crate) struct Watch(Mutex<WorksInProgress>);
 struct WorksInProgress {
     /// The works in progress, and behind them the buffers of earlier ones.
     all: Vec<AccessRecord>,
-    /// Number of works in progress.
     depth: usize,
 }
 

@@ -19,7 +19,6 @@ pub struct Winding {
     clusters: Vec<Cluster>,
 }
 
-/// Triangles that lie together.
 #[derive(Clone, Debug)]
 struct Cluster {
     first: usize,
@@ -125,8 +124,7 @@ impl Winding {
             if passed >= (asked + 0.5) * step {
                 let [a, b, c] = triangle;
                 let times = (passed / step + 0.5).floor() - asked;
-                let centre = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
-                sum += times * winding.at(&centre);
+                sum += times * winding.at(&std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0));
                 asked += times;
             }
         }

@@ -237,7 +237,7 @@ pub(crate) fn dispersed_fraction<const D: usize>(light: Vec<bool>) -> impl Stage
             let mut near = lists.candidates(i).iter();
             near.any(|j| phase[*j as usize] != phase[i])
                 || !walls.contacts.of_particle(i).is_empty()
-                || walls.points.in_sums() && !world.lists.wall.row(i).is_empty()
+                || walls.points.in_sums() && !world.lists.wall.candidates(i).is_empty()
         };
         let wanted = |i: usize| light[phase[i] as usize] && beside(i);
         walk_into(world, Values::Both, wanted, &mut dispersed_fraction, share)?;

@@ -30,11 +30,6 @@ impl<const D: usize> Domain<D> {
         self.upper[axis] - self.lower[axis]
     }
 
-    /// True if any axis is periodic.
-    pub fn any_periodic(&self) -> bool {
-        self.periodic.iter().any(|p| *p)
-    }
-
     /// The separation between nearest images.
     #[inline(always)]
     pub fn nearest_image(&self, mut d: Vect<D>) -> Vect<D> {
@@ -99,6 +94,12 @@ impl<const D: usize> Domain<D> {
             self.periodic[axis]
                 && (x[axis] - self.lower[axis] < reach || self.upper[axis] - x[axis] < reach)
         })
+    }
+
+    /// The domain, where images across periodic faces may be nearer to a place with this reach of its list.
+    pub(crate) fn wrapping(&self, x: &Vect<D>, reach: f64) -> Option<&Self> {
+        // The particle itself may have left the box by up to the skin since the last build.
+        self.near_periodic_face(x, 2.0 * reach).then_some(self)
     }
 
     /// True if the position is inside along the axes that are not periodic.

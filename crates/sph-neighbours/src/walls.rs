@@ -2,10 +2,16 @@
 //!
 //! The wall plugin makes the points and elements and sets their values.
 
+pub(crate) mod contact_block;
+pub(crate) mod contacts;
+pub(crate) mod free_body;
+pub(crate) mod slopes;
+pub(crate) mod wall_force;
+
 use sph_core::Vect;
 use sph_core::bed::Bed;
 
-use crate::{Contact, Contacts, Domain, FreeBody, Slopes, WallForce};
+use crate::{Contact, Contacts, Domain, FreeBody, Slope, WallForce};
 
 /// Wall points that take part in sums like particles: USAW vertices, dummy particles.
 #[derive(Clone, Debug, Default)]
@@ -121,8 +127,7 @@ impl<const D: usize> Elements<D> {
         })
     }
 
-    /// The centre of an element for given positions of the wall points, m; the corners may be
-    /// on two sides of a period.
+    /// The centre of an element for given positions of the wall points, m; the corners may be on two sides of a period.
     pub fn centre_from(&self, element: usize, points: &[Vect<D>], domain: &Domain<D>) -> Vect<D> {
         let corners = self.corners[element].map(|c| points[c as usize]);
         let apart = |c: Vect<D>| domain.nearest_image(c - corners[0]);
@@ -157,8 +162,9 @@ impl<const D: usize> Frame<D> {
     /// Rᵀ times a vector: from now to where the wall was drawn.
     pub fn turned_back(&self, present: &Vect<D>) -> Vect<D> {
         let column = |k: usize| {
-            let parts = (0..D).map(|i| self.rotation[i][k] * present[i]);
-            parts.sum::<f64>()
+            (0..D)
+                .map(|i| self.rotation[i][k] * present[i])
+                .sum::<f64>()
         };
         Vect::from_fn(|k, _| column(k))
     }
@@ -205,8 +211,8 @@ pub struct WallSet<const D: usize> {
     pub at_corners: bool,
     /// True if the walls scale the kernel.
     pub scales: bool,
-    /// ∇ ln s of every particle by wall, where walls scale the kernel.
-    pub slopes: Slopes<D>,
+    /// ∇ ln s of every particle by wall, in the order of the particles, where walls scale the kernel.
+    pub slopes: Vec<Slope<D>>,
     /// The pose of every wall, in the order of the names; empty where no wall ever moves.
     pub frames: Vec<Frame<D>>,
     /// The walls that forces move; empty where there is none.

@@ -3,14 +3,12 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Scalar, Store, Vect, fields};
+use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, Store, Vect, fields};
 use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
-use crate::pools::Pools;
-use crate::{
-    CellGrid, Clusters, Domain, Extent, Hidden, NeighbourList, SweepHalf, WallPoints, WallSet,
-};
+use crate::pairs::pools::Pools;
+use crate::{CellGrid, Clusters, Domain, Extent, Hidden, SweepHalf, WallPoints, WallSet};
 
 /// The lists between the point sets, valid until [`World::refresh_lists`] rebuilds them.
 #[derive(Default)]
@@ -23,7 +21,7 @@ pub struct Lists<const D: usize> {
     pub(crate) spare: Clusters,
     pub(crate) pools: Pools<D>,
     /// Wall points around free particles.
-    pub wall: NeighbourList,
+    pub wall: Clusters,
     /// Free particles around the wall points that are in sums.
     pub of_points: Clusters,
     /// Free particles around element centres; around the corners of elements where walls find the state there and these
@@ -102,14 +100,9 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
-    /// True if the walls scale the kernel.
-    pub fn scales(&self) -> bool {
-        self.walls.scales
-    }
-
     /// γ of density sums; none where it is 1.
     pub fn sum_renormalisation(&self) -> Option<&[f64]> {
-        match self.scales() {
+        match self.walls.scales {
             true => None,
             false => self.free.get(fields::RENORMALISATION).ok(),
         }
@@ -151,7 +144,7 @@ impl<const D: usize> World<D> {
     /// The same for particles whose [order](Self::order) is known.
     pub fn rebuild_lists_in(&mut self, order: Option<&[u32]>) -> Result<(), FieldError> {
         if let Some(order) = order {
-            self.free.permute(order);
+            self.free.permute(Role::State, order);
         }
         let lists = &mut self.lists;
         let [mut positions, mut points] =
@@ -168,18 +161,17 @@ impl<const D: usize> World<D> {
     pub fn sort(&mut self) -> Result<(), FieldError> {
         self.wrap()?;
         if let Some(order) = self.order()? {
-            self.free.permute(&order);
+            self.free.permute(Role::State, &order);
         }
         let places = self.free.get(fields::POSITION)?.to_vec();
-        let points = self.walls.points.position.clone();
-        self.lists_would_be_of(places, points, self.time);
+        self.lists_would_be_of(places, self.walls.points.position.clone(), self.time);
         Ok(())
     }
 
     /// Moves particles into the box along its periodic axes.
     pub fn wrap(&mut self) -> Result<(), FieldError> {
         let domain = &self.domain;
-        if domain.any_periodic() {
+        if domain.periodic.contains(&true) {
             let positions = self.free.get_mut(fields::POSITION)?;
             let all = positions.par_iter_mut();
             all.for_each(|x| *x = domain.wrapped(*x));
@@ -201,7 +193,6 @@ impl<const D: usize> World<D> {
         (!grid.is_sorted()).then(|| grid.order().to_vec())
     }
 
-    /// The cells of free particles at these positions.
     fn grid<'s>(
         &self,
         positions: &[Vect<D>],
@@ -221,7 +212,7 @@ impl<const D: usize> World<D> {
         lists.spare = Clusters::default();
         lists.of_points = Clusters::default();
         lists.of_elements = Clusters::default();
-        lists.wall = NeighbourList::default();
+        lists.wall = Clusters::default();
         lists.pools = Pools::default();
     }
 
@@ -263,7 +254,7 @@ impl<const D: usize> World<D> {
             let mut wall_grid = pools.grids.acquire();
             wall_grid.renew(None, summed, reach, domain);
             let wall = &mut lists.wall;
-            wall.build_on(&pools.lists, [positions, summed], &wall_grid, within);
+            wall.build_each([positions, summed], &wall_grid, within, pool);
             wall.shift(first as u32);
             let list = &mut lists.of_points;
             list.build([summed, positions], &grid, within, pool, None);

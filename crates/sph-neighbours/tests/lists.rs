@@ -5,7 +5,7 @@ use sph_core::Pool;
 use sph_core::{Role, Store, Vect, fields};
 use sph_kernels::Kernel;
 use sph_kernels::lanes::{Width, force_width};
-use sph_neighbours::{CellGrid, Clusters, Domain, NeighbourList, World, kernel_sums};
+use sph_neighbours::{CellGrid, Clusters, Domain, World, kernel_sums};
 
 fn cloud<const D: usize>(n: usize, seed: u64) -> Vec<Vect<D>> {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
@@ -36,12 +36,12 @@ fn check<const D: usize>(n: usize, seed: u64, reach: f64, periodic: [bool; D]) {
     let sorted: Vec<Vect<D>> = grid.order().iter().map(|&o| x[o as usize]).collect();
     for points in [&x, &sorted] {
         let grid = CellGrid::new(points, reach, &domain);
-        let mut list = NeighbourList::default();
-        list.build(points, points, &grid, reach, &domain);
-        let mut clusters = Clusters::default();
-        clusters.build([points; 2], &grid, (reach, &domain), &Pool::default(), None);
+        let (mut list, mut clusters, pool) =
+            (Clusters::default(), Clusters::default(), Pool::default());
+        list.build_each([points; 2], &grid, (reach, &domain), &pool);
+        clusters.build([points; 2], &grid, (reach, &domain), &pool, None);
         for i in 0..n {
-            let mut row = list.row(i).to_vec();
+            let mut row = list.candidates(i).to_vec();
             row.sort_unstable();
             let mut shared = clusters.candidates(i).to_vec();
             assert!(!grid.is_sorted() || shared.is_sorted(), "cluster of {i}");

@@ -39,7 +39,10 @@ impl<const D: usize> Faces<D> {
         let limit = world.kernel.support_radius().powi(2);
         let passes: Vec<_> = (0..self.elements.len()).map(|k| self.through(k)).collect();
         let one = |i: usize, constant: &mut f64, last: &mut f64| {
-            let (contacts, ports) = (world.walls.contacts.of_particle(i), world.lists.wall.row(i));
+            let (contacts, ports) = (
+                world.walls.contacts.of_particle(i),
+                world.lists.wall.candidates(i),
+            );
             if contacts.is_empty() && ports.is_empty() && *last == 0.0 {
                 return;
             }

@@ -3,12 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use sph_core::Vect;
+use sph_core::{Pool, Vect};
 use sph_kernels::{Kernel, by_name};
 use sph_multiphase::linear::{
     ConjugateGradient, Entries, LinearSolver, Matrix, Pattern, SolveError,
 };
-use sph_neighbours::{CellGrid, Domain, NeighbourList};
+use sph_neighbours::{CellGrid, Clusters, Domain};
 
 /// Largest error of u = sin(2πx) with `n` × `n` particles, over its largest value.
 pub fn error(n: usize) -> Result<f64, SolveError> {
@@ -21,14 +21,14 @@ pub fn error(n: usize) -> Result<f64, SolveError> {
     let sampler = kernel.sampler(2, 2.5 * spacing);
     let reach = sampler.support_radius();
     let grid = CellGrid::new(&points, reach, &domain);
-    let mut list = NeighbourList::default();
-    list.build(&points, &points, &grid, reach, &domain);
+    let mut list = Clusters::default();
+    list.build_each([&points; 2], &grid, (reach, &domain), &Pool::default());
 
     // ∇²u ≈ 2 Σ V (u_a − u_b) F_ab (Morris 1997), each row times V: symmetric and positive.
     let v = spacing * spacing;
     let (mut rows, mut diagonal, mut others) = (vec![], vec![], vec![]);
     for (i, x) in points.iter().enumerate() {
-        let mut row = list.row(i).to_vec();
+        let mut row = list.candidates(i).to_vec();
         row.retain(|j| *j as usize != i);
         row.sort_unstable();
         let away = |j: &u32| (x - points[*j as usize]).map(|d| d - d.round());

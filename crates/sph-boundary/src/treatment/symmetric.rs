@@ -81,7 +81,8 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
             }
             world.free.put(fields::SCALE_RATE, rate)?;
         }
-        world.walls.slopes.renew(slopes);
+        world.walls.slopes.clear();
+        world.walls.slopes.extend(slopes);
         world.free.put(fields::SCALE, scale)?;
         Ok(world.free.put(fields::SCALE_SLOPE, slope)?)
     }
@@ -94,7 +95,7 @@ fn nearest_image<const D: usize, M: WallMesh<D>>(
     x: &Vect<D>,
     wall: u32,
 ) -> Vect<D> {
-    if !world.domain.any_periodic() {
+    if !world.domain.periodic.contains(&true) {
         return *x;
     }
     let centre = outline.states[wall as usize].place();

@@ -103,9 +103,9 @@ impl<const D: usize> Contribution<D> for Fickian {
             offer.term(ShiftTransport {
                 velocity: self.transport == Transport::All,
                 relaxation: self.relaxation,
-                summed: setting.summed && !setting.world.scales(),
+                summed: setting.summed && !setting.world.walls.scales,
             });
-            if setting.summed && setting.world.scales() {
+            if setting.summed && setting.world.walls.scales {
                 offer.term(ShiftedSum);
             }
         }
@@ -146,7 +146,7 @@ fn shift_velocity<const D: usize>(shifting: Fickian, speeds: Vec<f64>) -> impl S
             let results = shift.par_iter_mut().zip(&mut void_fraction).zip(&all);
             let results = results.enumerate().with_min_len(1024);
             results.for_each(|(i, ((s, empty), even))| {
-                if rough && !world.lists.wall.row(i).is_empty() {
+                if rough && !world.lists.wall.candidates(i).is_empty() {
                     (*s, *empty) = (Vect::zeros(), 0.0);
                     return;
                 }

@@ -27,8 +27,8 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
             space,
             places,
             owned: match places {
-                None => space.owned().clone(),
-                Some(places) => space.owned().of_rows(places),
+                None => space.owned.clone(),
+                Some(places) => space.owned.of_rows(places),
             },
             inside: OnceLock::new(),
         }
@@ -43,7 +43,7 @@ impl<'a, const D: usize> ParticleMatrix<'a, D> {
             self.space.refresh(x);
             return;
         };
-        let mut all = vec![Vect::<1>::zeros(); self.space.particles()];
+        let mut all = vec![Vect::<1>::zeros(); self.space.particles];
         for (place, x) in places.iter().zip(&*x) {
             all[*place as usize] = *x;
         }

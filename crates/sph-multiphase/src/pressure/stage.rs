@@ -114,7 +114,7 @@ impl<const D: usize> SolvePressure<D> {
         } = &mut self.scratch;
         let scratch_pool = &*scratch_pool;
         let system = Couplings {
-            owned: space.owned(),
+            owned: &space.owned,
             volume: world.free.get(fields::VOLUME)?,
             density: world.free.get(fields::DENSITY)?,
             gamma: world.free.get(fields::RENORMALISATION).ok(),

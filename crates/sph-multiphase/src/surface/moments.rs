@@ -84,7 +84,7 @@ fn at_surface<const D: usize>(
 ) -> (Symmetric, f64) {
     let (kernel, points) = (&*world.kernel, &world.walls.points);
     let cell = world.spacing.powi(D as i32);
-    let scale = rows.scale().filter(|_| world.scales());
+    let scale = rows.scale().filter(|_| world.walls.scales);
     let own = scale.map_or(kernel.value_at_zero(), |scale| scale.own_value);
     let (mut filling, mut slope) = (cell * (own + values), Vect::from(slopes) * cell);
     let mut moment = Symmetric(moments) * cell;
@@ -96,7 +96,7 @@ fn at_surface<const D: usize>(
         moment = moment - outer(&pair.separation) * (part * pair.factor);
     }
     let mut inverse = 1.0;
-    if !world.scales() {
+    if !world.walls.scales {
         inverse = rows.inverse_renormalisation;
         rows.contacts.iter().for_each(|c| normal += c.gradient);
     }

@@ -273,7 +273,7 @@ impl<const D: usize> StepHook<D> for SurfaceStrain {
         let points = walls.points.in_sums();
         let walled = |i: usize| {
             let seen = || walls.contacts.of_particle(i).iter().next().is_some();
-            !world.scales() && (seen() || points && !world.lists.wall.row(i).is_empty())
+            !world.walls.scales && (seen() || points && !world.lists.wall.candidates(i).is_empty())
         };
         let all = constant.par_iter_mut().zip(&self.rates).enumerate();
         all.with_min_len(1024).for_each(|(i, (k, rate))| {

@@ -68,7 +68,7 @@ impl<const D: usize> FrictionOperator<'_, D> {
             let mut writer = Writer {
                 own,
                 rows,
-                owned: self.space.owned(),
+                owned: &self.space.owned,
                 particle: 0,
                 left_out: E::ZERO,
             };

@@ -319,7 +319,7 @@ fn within_reach_of_wall_points_nothing_is_shifted() {
     let shifts = shift(&mut channel.world, Fickian::default());
     let (mut beside, mut inside) = (0, 0);
     for (i, shift) in shifts.iter().enumerate() {
-        match channel.world.lists.wall.row(i).is_empty() {
+        match channel.world.lists.wall.candidates(i).is_empty() {
             true => inside += usize::from(shift.norm() > 0.0),
             false => {
                 beside += 1;

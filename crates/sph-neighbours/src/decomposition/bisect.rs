@@ -13,27 +13,14 @@ pub enum DecompositionError {
     #[error("there must be a rank at least")]
     NoRanks,
     /// More ranks than there is to own.
-    #[error("{ranks} ranks for {particles} particles: some would own nothing")]
-    TooManyRanks {
-        /// Ranks.
-        ranks: usize,
-        /// Particles.
-        particles: usize,
-    },
+    #[error("{0} ranks for {1} particles: some would own nothing")]
+    TooManyRanks(usize, usize),
     /// Lists that do not fit.
-    #[error("{costs} costs for {particles} particles")]
-    Length {
-        /// Costs.
-        costs: usize,
-        /// Particles.
-        particles: usize,
-    },
-    /// A place or a cost that is not a number, or a cost below zero.
-    #[error("particle {particle} has a place or a cost that cannot be divided")]
-    NotFinite {
-        /// Its number.
-        particle: usize,
-    },
+    #[error("{0} costs for {1} particles")]
+    Length(usize, usize),
+    /// A particle with a place or a cost that is not a number, or a cost below zero.
+    #[error("particle {0} has a place or a cost that cannot be divided")]
+    NotFinite(usize),
 }
 
 /// The owner of every particle: the set is cut across its longest axis so that both sides have the cost of their ranks, and
@@ -52,11 +39,10 @@ pub fn bisect<const D: usize>(
         return Err(DecompositionError::NoRanks);
     }
     if ranks > particles {
-        return Err(DecompositionError::TooManyRanks { ranks, particles });
+        return Err(DecompositionError::TooManyRanks(ranks, particles));
     }
     if costs.len() != particles {
-        let costs = costs.len();
-        return Err(DecompositionError::Length { costs, particles });
+        return Err(DecompositionError::Length(costs.len(), particles));
     }
     check(places, costs)?;
     let mut all: Vec<u32> = (0..particles as u32).collect();
@@ -70,14 +56,13 @@ pub fn bisect<const D: usize>(
     Ok(owners)
 }
 
-/// Refuses places and costs that cannot be divided.
 pub(crate) fn check<const D: usize>(
     places: &[Vect<D>],
     costs: &[f64],
 ) -> Result<(), DecompositionError> {
     let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
     match (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
-        Some(particle) => Err(DecompositionError::NotFinite { particle }),
+        Some(particle) => Err(DecompositionError::NotFinite(particle)),
         None => Ok(()),
     }
 }
@@ -111,8 +96,7 @@ impl<const D: usize> Cutter<'_, D> {
         });
         let least = lower;
         let most = part.len() - (ranks.len() - lower);
-        let here = here.unwrap_or(part.len()).clamp(least, most);
-        let (low, high) = part.split_at_mut(here);
+        let (low, high) = part.split_at_mut(here.unwrap_or(part.len()).clamp(least, most));
         let middle = ranks.start + lower as u32;
         self.cut(low, ranks.start..middle);
         self.cut(high, middle..ranks.end);
@@ -174,14 +158,11 @@ mod tests {
         );
         assert!(matches!(
             told(&places, &costs[1..], 2),
-            DecompositionError::Length { .. }
+            DecompositionError::Length(..)
         ));
         let mut broken = costs.clone();
         broken[7] = f64::NAN;
-        assert_eq!(
-            told(&places, &broken, 2),
-            DecompositionError::NotFinite { particle: 7 }
-        );
+        assert_eq!(told(&places, &broken, 2), DecompositionError::NotFinite(7));
         // Particles on one place go by their index.
         let same = vec![Vector2::new(1.0, 1.0); 8];
         assert_eq!(

@@ -2,8 +2,10 @@
 
 use sph_core::Vect;
 
-use crate::decomposition::bisect::check;
-use crate::decomposition::{PartError, Transport, TransportError};
+use crate::decomposition::{
+    bisect::check,
+    {PartError, Transport, TransportError},
+};
 
 /// Halvings of an interval until its ends are one number, or nearly.
 const HALVINGS: usize = 52;
@@ -18,7 +20,6 @@ pub struct Cuts<const D: usize> {
     planes: Vec<(usize, f64)>,
 }
 
-/// Ranks that share a part of space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Group {
     first: usize,
@@ -26,17 +27,14 @@ struct Group {
 }
 
 impl Group {
-    fn lower(self) -> Group {
-        let ranks = self.ranks / 2;
-        Group { ranks, ..self }
-    }
-
-    fn upper(self) -> Group {
+    /// Its lower and its upper half.
+    fn halves(self) -> [Group; 2] {
         let lower = self.ranks / 2;
-        Group {
-            first: self.first + lower,
-            ranks: self.ranks - lower,
-        }
+        let parts = [
+            (self.first, lower),
+            (self.first + lower, self.ranks - lower),
+        ];
+        parts.map(|(first, ranks)| Group { first, ranks })
     }
 }
 
@@ -66,7 +64,7 @@ impl<const D: usize> Cuts<D> {
             cuts.cut(&wide, places, &costs, communicator)?;
             let halves = |g: Group| match g.ranks {
                 1 => vec![g],
-                _ => vec![g.lower(), g.upper()],
+                _ => g.halves().to_vec(),
             };
             groups = groups.into_iter().flat_map(halves).collect();
         }
@@ -128,7 +126,7 @@ impl<const D: usize> Cuts<D> {
             }
             communicator.total(&mut below)?;
             for (g, group) in groups.iter().enumerate() {
-                let aim = wanted[g] / group.ranks as u64 * group.lower().ranks as u64;
+                let aim = wanted[g] / group.ranks as u64 * group.halves()[0].ranks as u64;
                 let here = middle(&between[g]);
                 match below[g] < aim {
                     true => between[g].0 = here,
@@ -137,7 +135,7 @@ impl<const D: usize> Cuts<D> {
             }
         }
         for (g, group) in groups.iter().enumerate() {
-            self.planes[group.upper().first] = (axes[g], between[g].1);
+            self.planes[group.halves()[1].first] = (axes[g], between[g].1);
         }
         Ok(())
     }
@@ -149,11 +147,9 @@ impl<const D: usize> Cuts<D> {
             ranks: self.ranks,
         };
         while group.ranks > ranks {
-            let (axis, place) = self.planes[group.upper().first];
-            group = match x[axis] < place {
-                true => group.lower(),
-                false => group.upper(),
-            };
+            let [lower, upper] = group.halves();
+            let (axis, place) = self.planes[upper.first];
+            group = if x[axis] < place { lower } else { upper };
         }
         group
     }

@@ -33,7 +33,6 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Fills the whole with the messages of all ranks.
 fn join<const D: usize>(
     part: &World<D>,
     whole: &mut World<D>,

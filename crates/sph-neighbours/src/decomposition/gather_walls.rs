@@ -66,9 +66,10 @@ impl<const D: usize> Parts<D> {
         elements.pressure.clone_from(&world.walls.elements.pressure);
         let behind = points.pressure.len();
         for entry in messages.iter().flat_map(|m| m.as_chunks::<ENTRY>().0) {
-            let (number, pressure) = entry.split_at(4);
-            let number = u32::from_le_bytes(bytes(number)) as usize;
-            let pressure = f64::from_le_bytes(bytes(pressure));
+            let number = entry.first_chunk().copied().unwrap_or_default();
+            let number = u32::from_le_bytes(number) as usize;
+            let pressure = entry.last_chunk().copied().unwrap_or_default();
+            let pressure = f64::from_le_bytes(pressure);
             match number.checked_sub(behind) {
                 None => points.pressure[number] = pressure,
                 Some(element) => elements.pressure[element] = pressure,
@@ -81,10 +82,4 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Bytes of a number and a pressure.
 const ENTRY: usize = 12;
-
-/// The first bytes of a slice.
-fn bytes<const N: usize>(from: &[u8]) -> [u8; N] {
-    std::array::from_fn(|k| from.get(k).copied().unwrap_or(0))
-}

@@ -4,47 +4,41 @@ use sph_core::Vect;
 
 use crate::{CellGrid, Domain, World};
 
-/// A box around the particles of a rank; upside down where there is none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RankBox<const D: usize> {
-    /// Lower corner, m.
-    pub lower: Vect<D>,
-    /// Upper corner, m.
-    pub upper: Vect<D>,
+/// Lower and upper corner of a box around the particles of a rank, m; upside down where there is none.
+pub(crate) type RankBox<const D: usize> = [Vect<D>; 2];
+
+pub(crate) fn around<'a, const D: usize>(places: impl Iterator<Item = &'a Vect<D>>) -> RankBox<D> {
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::repeat);
+    places.fold(nothing, |[lower, upper], x| [lower.inf(x), upper.sup(x)])
 }
 
-impl<const D: usize> RankBox<D> {
-    /// Around no particle.
-    pub fn empty() -> Self {
-        RankBox {
-            lower: Vect::repeat(f64::INFINITY),
-            upper: Vect::repeat(f64::NEG_INFINITY),
-        }
-    }
+pub(crate) fn around_own<const D: usize>(
+    places: &[Vect<D>],
+    owners: &[u32],
+    rank: usize,
+) -> RankBox<D> {
+    let own = places.iter().zip(owners);
+    around(own.filter(|(_, o)| **o as usize == rank).map(|(x, _)| x))
+}
 
-    /// Around these.
-    pub fn around<'a>(places: impl Iterator<Item = &'a Vect<D>>) -> Self {
-        places.fold(Self::empty(), |a, x| RankBox {
-            lower: a.lower.inf(x),
-            upper: a.upper.sup(x),
-        })
-    }
-
-    /// Square of the distance of a place, m²; infinite from a box around no particle.
-    fn distance_squared(&self, x: &Vect<D>, domain: &Domain<D>) -> f64 {
-        let along = |axis: usize| {
-            let outside = |x: f64| (self.lower[axis] - x).max(x - self.upper[axis]).max(0.0);
-            match domain.periodic[axis] {
-                false => outside(x[axis]),
-                true => {
-                    let images = [-1.0, 0.0, 1.0].map(|n| x[axis] + n * domain.length(axis));
-                    let all = images.map(outside).into_iter();
-                    all.fold(f64::INFINITY, f64::min)
-                }
+/// Square of the distance of a place from a box, m²; infinite from one around no particle.
+fn distance_squared<const D: usize>(
+    [lower, upper]: &RankBox<D>,
+    x: &Vect<D>,
+    domain: &Domain<D>,
+) -> f64 {
+    let along = |axis: usize| {
+        let outside = |x: f64| (lower[axis] - x).max(x - upper[axis]).max(0.0);
+        match domain.periodic[axis] {
+            false => outside(x[axis]),
+            true => {
+                let images = [-1.0, 0.0, 1.0].map(|n| x[axis] + n * domain.length(axis));
+                let all = images.map(outside).into_iter();
+                all.fold(f64::INFINITY, f64::min)
             }
-        };
-        (0..D).map(|axis| along(axis).powi(2)).sum()
-    }
+        }
+    };
+    (0..D).map(|axis| along(axis).powi(2)).sum()
 }
 
 /// Finds needed particles: those within reach of a box, and near walls those beyond, since a wall that a particle touches has a
@@ -76,11 +70,7 @@ impl<'a, const D: usize> Needs<'a, D> {
         let half = elements.corners.iter().zip(&elements.centre);
         let half = half.flat_map(|(corners, centre)| {
             let apart = |c: &u32| domain.nearest_image(points.position[*c as usize] - centre);
-            corners
-                .iter()
-                .map(apart)
-                .map(|d| d.norm())
-                .collect::<Vec<_>>()
+            corners.map(|c| apart(&c).norm())
         });
         let half = half.fold(0.0, f64::max);
         let grid = (!walls.is_empty()).then(|| CellGrid::new(&walls, reach, domain));
@@ -96,7 +86,7 @@ impl<'a, const D: usize> Needs<'a, D> {
 
     /// True if a rank with this box needs copies of particles at a place.
     pub fn at(&self, x: &Vect<D>, rank: &RankBox<D>) -> bool {
-        let apart = rank.distance_squared(x, self.domain);
+        let apart = distance_squared(rank, x, self.domain);
         if apart < self.reach * self.reach {
             return true;
         }
@@ -112,7 +102,7 @@ impl<'a, const D: usize> Needs<'a, D> {
                 let wall = &self.walls[*w as usize];
                 let near = self.domain.nearest_image(x - wall).norm_squared();
                 near < self.reach * self.reach
-                    && rank.distance_squared(wall, self.domain) < self.touched * self.touched
+                    && distance_squared(rank, wall, self.domain) < self.touched * self.touched
             });
         });
         found

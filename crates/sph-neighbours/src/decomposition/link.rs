@@ -162,7 +162,6 @@ impl Link {
         Ok(words.map(|b| u64::from_le_bytes(*b)).collect())
     }
 
-    /// Results of `pack` for the particles that others have copies of, by their ranks.
     fn packed(&self, pack: impl Fn(&[u32]) -> Vec<u8>) -> Vec<(usize, Vec<u8>)> {
         let partners = self.partners();
         let sends = partners.sends.iter();
@@ -183,7 +182,6 @@ impl Link {
         Ok(self.transport.swap_during(out, &from, work)?)
     }
 
-    /// Messages with the columns that are `wanted`.
     pub(crate) fn columns<const D: usize>(
         &self,
         free: &Store<D>,
@@ -192,7 +190,6 @@ impl Link {
         self.packed(|slots| free.pack(&wanted, slots))
     }
 
-    /// Overwrites the columns of ghosts with messages of their owners.
     pub(crate) fn take_in<const D: usize>(
         &self,
         free: &mut Store<D>,
@@ -231,10 +228,9 @@ impl Link {
         }
         Ok(())
     }
-}
 
-/// Methods of a solve, in which no rank may fail: after [`any`](Link::any) has found that none has, they return no error.
-impl Link {
+    // Methods of a solve, in which no rank may fail: after `any` has found that none has, they return no error.
+
     /// The result of messages in a solve; none if they fail, of which the next check between ranks knows.
     fn held<T, E>(&self, sent: Result<T, E>) -> Option<T> {
         if sent.is_err() {
@@ -248,7 +244,6 @@ impl Link {
         self.held(self.mirrored(values));
     }
 
-    /// The largest value of all ranks, in a solve.
     pub(crate) fn most(&self, value: f64) -> f64 {
         let mut value = [value];
         self.held(self.transport.largest(&mut value));

@@ -2,8 +2,10 @@
 
 use sph_core::{AnyField, Slots, Store, fields};
 
-use crate::decomposition::link::{OWNER, Partner};
-use crate::decomposition::{PartError, Parts};
+use crate::decomposition::{
+    link::{OWNER, Partner},
+    {PartError, Parts},
+};
 
 impl<const D: usize> Parts<D> {
     /// Brings an earlier copy of this rank's particles into the present order: particles that have come since are asked

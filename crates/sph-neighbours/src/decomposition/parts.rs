@@ -9,7 +9,7 @@ use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Role, Store, Vect, fields};
 
-use crate::decomposition::ghosts::{Needs, RankBox};
+use crate::decomposition::ghosts::{Needs, RankBox, around, around_own};
 use crate::decomposition::link::{Link, OWNER, Partner, Partners};
 use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
 use crate::{Extent, World};
@@ -36,9 +36,7 @@ pub struct Parts<const D: usize> {
     /// Its connection with the others.
     pub link: Arc<Link>,
     cuts: Cuts<D>,
-    /// Particles that went to another rank.
     moved: u64,
-    /// Rebuilds since the last check of the parts.
     builds: u64,
 }
 
@@ -48,7 +46,7 @@ impl<const D: usize> Parts<D> {
     /// to cost the same: the parts are checked when lists are built next.
     ///
     /// # Errors
-    /// More ranks than particles; a column that is missing.
+    /// More ranks than particles; messages that fail, another rank that has failed, a missing column, as everywhere below.
     pub fn divide(
         world: &mut World<D>,
         rings: usize,
@@ -58,7 +56,7 @@ impl<const D: usize> Parts<D> {
         let reference = world.lists.reference.clone();
         let particles = reference.len();
         if ranks > particles {
-            return Err(DecompositionError::TooManyRanks { ranks, particles }.into());
+            return Err(DecompositionError::TooManyRanks(ranks, particles).into());
         }
         let cuts = match Thread::communicator(1).first() {
             Some(alone) => Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?,
@@ -68,10 +66,7 @@ impl<const D: usize> Parts<D> {
         world.free.add(OWNER, Role::State);
         world.free.set_index(OWNER.name, &owners)?;
         world.extent = Some(Extent::around(&reference));
-        let around = |r: usize| {
-            let own = reference.iter().zip(&owners);
-            RankBox::around(own.filter(|(_, o)| **o as usize == r).map(|(x, _)| x))
-        };
+        let around = |rank: usize| around_own(&reference, &owners, rank);
         let around: Vec<RankBox<D>> = (0..ranks).map(around).collect();
         let needs = Needs::new(world, rings);
         let here =
@@ -132,9 +127,6 @@ impl<const D: usize> Parts<D> {
     }
 
     /// As [`Link::update_ghosts`]; does some `work` while the messages are on their way.
-    ///
-    /// # Errors
-    /// Another rank that has failed; messages that fail.
     pub fn update_ghosts_during(
         &self,
         world: &mut World<D>,
@@ -157,9 +149,6 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Gives newborn particles to the ranks that own their places.
-    ///
-    /// # Errors
-    /// A column that is missing.
     pub fn house(
         &self,
         free: &mut Store<D>,
@@ -175,9 +164,6 @@ impl<const D: usize> Parts<D> {
 
     /// Gives every particle to the rank that owns its place, finds all ghosts anew, and builds the lists. `cost` is that of every
     /// particle of this rank.
-    ///
-    /// # Errors
-    /// Messages that fail; a column that is missing.
     pub fn rebuild(
         &mut self,
         world: &mut World<D>,
@@ -202,7 +188,7 @@ impl<const D: usize> Parts<D> {
         world.extent = Some(self.extent(&places)?);
         let order = world.order()?;
         if let Some(order) = &order {
-            world.free.permute_derived(order);
+            world.free.permute(Role::Derived, order);
         }
         let sends = sorted(sends, order.as_deref(), own);
         world.rebuild_lists_in(order.as_deref())?;
@@ -282,26 +268,21 @@ impl<const D: usize> Parts<D> {
         let messages = self.link.transport.swap(out, &from)?;
         for (rank, message) in from.into_iter().zip(messages) {
             let first = free.len();
-            let behind = first as u32..first as u32 + come[rank] as u32;
-            let slots: Vec<u32> = behind.collect();
+            let slots: Vec<u32> = (first as u32..first as u32 + come[rank] as u32).collect();
             free.set_len(first + slots.len());
             free.unpack(|_| true, &slots, &message)?;
         }
         Ok(())
     }
 
-    /// Boxes around the particles of each rank.
     fn rank_boxes(&self, world: &World<D>) -> Result<Vec<RankBox<D>>, PartError> {
-        let own = RankBox::around(world.free.get(fields::POSITION)?.iter());
-        let numbers = own.lower.iter().chain(own.upper.iter());
+        let own = around(world.free.get(fields::POSITION)?.iter());
+        let numbers = own.iter().flat_map(|corner| corner.iter());
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
         let read = |message: Vec<u8>| {
             let numbers = message.as_chunks::<8>().0;
             let at = |k: usize| numbers.get(k).map_or(f64::NAN, |b| f64::from_le_bytes(*b));
-            RankBox {
-                lower: Vect::from_fn(|k, _| at(k)),
-                upper: Vect::from_fn(|k, _| at(D + k)),
-            }
+            [0, D].map(|from| Vect::from_fn(|k, _| at(from + k)))
         };
         let all = self.link.transport.all(&bytes)?;
         Ok(all.into_iter().map(read).collect())
@@ -309,21 +290,21 @@ impl<const D: usize> Parts<D> {
 
     /// The extent of the particles of all ranks; `own` are those of this one.
     fn extent(&self, own: &[Vect<D>]) -> Result<Extent<D>, PartError> {
-        let around = RankBox::around(own.iter());
-        let lower = around.lower.iter().map(|x| -x);
-        let mut corners: Vec<f64> = lower.chain(around.upper.iter().copied()).collect();
+        let [lower, upper] = around(own.iter());
+        let mut corners: Vec<f64> = (-lower).iter().chain(&upper).copied().collect();
         self.link.transport.largest(&mut corners)?;
         let mut points = [own.len() as u64];
         self.link.transport.total(&mut points)?;
         Ok(Extent {
-            lower: Vect::from_fn(|k, _| -corners[k]),
-            upper: Vect::from_fn(|k, _| corners[D + k]),
+            corners: [
+                Vect::from_fn(|k, _| -corners[k]),
+                Vect::from_fn(|k, _| corners[D + k]),
+            ],
             points: points[0] as usize,
         })
     }
 }
 
-/// Slots of particles by the ranks that own them.
 fn by_owner(owners: &[u32], ranks: usize) -> Vec<Partner> {
     let mut all: Vec<Partner> = (0..ranks).map(|r| (r, vec![])).collect();
     for (slot, owner) in owners.iter().enumerate() {

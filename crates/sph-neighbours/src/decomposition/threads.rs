@@ -9,33 +9,25 @@ use crate::decomposition::{Transport, TransportError};
 #[derive(Debug)]
 pub struct Thread {
     rank: usize,
-    /// To every rank.
     to: Vec<Sender<Vec<u8>>>,
-    /// From every rank.
     from: Vec<Mutex<Receiver<Vec<u8>>>>,
 }
 
 impl Thread {
     /// A number of connected ranks. A dropped rank has ended; ranks that wait for it get an error.
     pub fn communicator(ranks: usize) -> Vec<Thread> {
-        let mut communicator: Vec<Thread> = Vec::with_capacity(ranks);
-        let mut rows: Vec<Vec<Sender<Vec<u8>>>> = Vec::with_capacity(ranks);
-        for rank in 0..ranks {
-            let (row, from) = (0..ranks)
-                .map(|_| channel())
-                .unzip::<_, _, Vec<_>, Vec<_>>();
-            rows.push(row);
-            communicator.push(Thread {
-                rank,
-                to: Vec::new(),
-                from: from.into_iter().map(Mutex::new).collect(),
-            });
-        }
-        // What a receiver has for a sender belongs to the sender.
-        for (sender, rank) in communicator.iter_mut().enumerate() {
-            rank.to = rows.iter().map(|row| row[sender].clone()).collect();
-        }
-        communicator
+        let channels = || (0..ranks).map(|_| channel()).unzip();
+        let rows: Vec<(Vec<Sender<Vec<u8>>>, Vec<_>)> = (0..ranks).map(|_| channels()).collect();
+        // The senders of a receiver's row belong to the ranks that send to it.
+        let to = |sender: usize| rows.iter().map(|(row, _)| row[sender].clone()).collect();
+        let to: Vec<Vec<_>> = (0..ranks).map(to).collect();
+        let ends = to.into_iter().zip(rows).enumerate();
+        ends.map(|(rank, (to, (_, from)))| Thread {
+            rank,
+            to,
+            from: from.into_iter().map(Mutex::new).collect(),
+        })
+        .collect()
     }
 }
 

@@ -48,8 +48,7 @@ pub trait Transport: Send + Sync + Debug {
     /// The messages of all ranks, in their order.
     fn all(&self, own: &[u8]) -> Result<Vec<Vec<u8>>, TransportError> {
         let others = self.other_ranks();
-        let out = others.iter().map(|r| (*r, own.to_vec())).collect();
-        let mut all = self.swap(out, &others)?;
+        let mut all = self.swap(others.iter().map(|r| (*r, own.to_vec())).collect(), &others)?;
         all.insert(self.rank(), own.to_vec());
         Ok(all)
     }
@@ -91,9 +90,8 @@ pub trait Transport: Send + Sync + Debug {
     /// Gives every rank a number, and takes one from each.
     fn all_to_all(&self, numbers: &[u64]) -> Result<Vec<u64>, TransportError> {
         let others = self.other_ranks();
-        let out = others
-            .iter()
-            .map(|r| (*r, numbers[*r].to_le_bytes().to_vec()));
+        let message = |r: &usize| (*r, numbers[*r].to_le_bytes().to_vec());
+        let out = others.iter().map(message);
         let mut all = vec![numbers[self.rank()]; self.ranks()];
         for (from, message) in others.iter().zip(self.swap(out.collect(), &others)?) {
             let bytes = message.try_into().map_err(|m: Vec<u8>| {
@@ -110,7 +108,6 @@ pub trait Transport: Send + Sync + Debug {
     }
 }
 
-/// The larger one; NaN counts as infinite.
 fn larger(a: f64, b: f64) -> f64 {
     let number = |v: f64| if v.is_nan() { f64::INFINITY } else { v };
     number(a).max(number(b))

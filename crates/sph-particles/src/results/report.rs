@@ -127,7 +127,7 @@ impl<const D: usize> Running<'_, D> {
         let momentum = momentum.sum::<f64>().sqrt();
         let extrema = &self.extrema;
         let [highest, ..] = extrema.peaks;
-        let more = balance.mass + flow.mass_left() - flow.world.free.inserted().mass - mass;
+        let more = balance.mass + flow.mass_left() - flow.world.free.inserted.mass - mass;
         Drift {
             mass: over(more, mass),
             momentum: over(momentum, extrema.momentum_scale),

@@ -86,7 +86,7 @@ pub fn save<const D: usize, T: Serialize>(
         let all = all.into_iter().filter(|(_, n)| !n.is_empty());
         columns.extend(all.map(|(name, numbers)| column(name, 1, ColumnData::F64(numbers))));
     }
-    let born = world.free.inserted();
+    let born = world.free.inserted;
     let meta = Meta {
         identity: identity.clone(),
         dimension: D,
@@ -236,16 +236,16 @@ fn fill<const D: usize>(
 ) -> Result<()> {
     if let Some((identities, mass, particles)) = clock.born {
         let mass = f64::from_bits(mass);
-        let known = flow.world.free.inserted().identities;
+        let known = flow.world.free.inserted.identities;
         let sound = identities == known || flow.nursery.is_some() && identities > known;
         if !(sound && mass >= 0.0 && mass.is_finite()) {
             return Err(refused(path, "its births are not the scene's"));
         }
-        flow.world.free.set_inserted(Inserted {
+        flow.world.free.inserted = Inserted {
             identities,
             mass,
             particles,
-        });
+        };
     }
     let comes_or_goes = !flow.outlets.is_empty() || flow.nursery.is_some();
     if let Some(v) = identities(checkpoint).filter(|_| comes_or_goes) {
@@ -345,7 +345,7 @@ fn set_clock<const D: usize>(
 fn nonsense<const D: usize>(flow: &Flow<D>) -> Result<Option<&'static str>> {
     let free = &flow.world.free;
     let mut seen = HashSet::new();
-    let given = free.inserted().identities;
+    let given = free.inserted.identities;
     let mut new = |id: &u32| *id < given && seen.insert(*id);
     let known = free.get(fields::IDENTITY)?.iter().all(&mut new);
     let mut phases = free.get(fields::PHASE).into_iter().flatten();

@@ -109,8 +109,8 @@ impl<const D: usize> Running<'_, D> {
         whole.world.walls.follow(&flow.world.walls);
         whole.loads.clone_from(&flow.loads);
         let (own, all) = (&flow.world.free, &mut whole.world.free);
-        all.set_removed(own.removed().to_vec());
-        all.set_inserted(own.inserted());
+        all.removed.clone_from(&own.removed);
+        all.inserted = own.inserted;
         whole.world.lists.builds = flow.world.lists.builds;
         whole.restored = true;
         if evaluated {

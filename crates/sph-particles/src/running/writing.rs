@@ -60,7 +60,7 @@ impl<const D: usize> Running<'_, D> {
 
     pub fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
         let mut all = self.counters.stage_seconds.clone();
-        for timing in self.parts.flow.timings() {
+        for timing in &self.parts.flow.timings {
             *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
         }
         *all.entry("output".into()).or_default() += books.output_seconds;

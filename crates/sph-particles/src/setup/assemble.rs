@@ -249,10 +249,10 @@ fn filled_columns<const D: usize>(
         let of = placed.body.iter().map(|body| phases[*body as usize]);
         *free.get_mut(fields::PHASE)? = of.collect();
     }
-    free.set_inserted(Inserted {
+    free.inserted = Inserted {
         identities: count,
         ..Inserted::default()
-    });
+    };
     Ok((free, outlets))
 }
 

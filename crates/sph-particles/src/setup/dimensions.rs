@@ -64,7 +64,7 @@ mod tests {
             let mass = free.get(fields::MASS).unwrap().to_vec();
             let phase = free.get(fields::PHASE).unwrap().to_vec();
             let position = free.get(fields::POSITION).unwrap().to_vec();
-            (identity, mass, phase, position, free.removed().to_vec())
+            (identity, mass, phase, position, free.removed.clone())
         };
         let sent = |flow: &mut Flow<2>, k: usize, to: [f64; 2]| {
             flow.world.free.get_mut(fields::POSITION).unwrap()[k] = to.into();

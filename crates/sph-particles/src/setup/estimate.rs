@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Plain, Role, StepLimit};
-use sph_neighbours::{Clusters, NeighbourList, World};
+use sph_neighbours::{Clusters, World};
 use sph_scene::{Scene, estimate};
 use sph_solver::{Flow, SolverError, defaults};
 
@@ -250,10 +250,8 @@ impl Memory {
     }
 }
 
-fn list(list: &NeighbourList) -> f64 {
-    let rows = 0..list.len();
-    let entries: usize = rows.map(|i| list.row(i).len()).sum();
-    size_of::<u32>() as f64 * (SPARE * entries as f64 + list.len() as f64)
+fn list(each: &Clusters) -> f64 {
+    size_of::<u32>() as f64 * (SPARE * each.entries() as f64 + each.len() as f64)
 }
 
 fn clusters(all: &Clusters) -> f64 {

@@ -69,9 +69,11 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let costs = costs(world);
     let owners = bisect(places, &costs, ranks).map_err(|e| SolverError::at("", e.to_string()))?;
     let halo = Halo::new(world, &owners, ranks, flow.rings())?;
-    let mut cost = vec![0.0; ranks];
-    let all = owners.iter().zip(&costs);
-    all.for_each(|(owner, c)| cost[*owner as usize] += c);
+    let (mut particles, mut cost) = (vec![0; ranks], vec![0.0; ranks]);
+    for (owner, c) in owners.iter().zip(&costs) {
+        particles[*owner as usize] += 1;
+        cost[*owner as usize] += c;
+    }
     let mean = (costs.iter().sum::<f64>() / ranks as f64).max(f64::MIN_POSITIVE);
     // Ghosts get the columns that a stage has summed over neighbours; they compute all others themselves.
     let mut exchanges = Vec::new();
@@ -89,7 +91,7 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     }
     let largest = cost.iter().copied().fold(0.0, f64::max);
     let one = |rank: usize| RankUse {
-        particles: halo.owned(rank),
+        particles: particles[rank],
         cost: cost[rank] / mean,
         ghosts: halo.ghosts(rank),
         sent: halo.sent(rank),

@@ -151,7 +151,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
     let points = &world.walls.points;
     let whole = world.spacing.powi(D as i32);
     let kernel = &*world.kernel;
-    let domain = world.domain.any_periodic().then_some(&world.domain);
+    let domain = Some(&world.domain).filter(|domain| domain.periodic.contains(&true));
     let of = |(row, values): &mut (Scratch<D>, Vec<f64>), i: usize| {
         let x = &position[i];
         let own = scale.map_or(1.0, |s| s[i]);
@@ -172,7 +172,7 @@ fn concentrations<const D: usize>(world: &World<D>) -> Result<Vec<Concentration<
             scale.map_or(1.0, |s| own * s[j as usize])
         });
         if points.in_sums() {
-            let candidates = world.lists.wall.row(i);
+            let candidates = world.lists.wall.candidates(i);
             row.fill(x, &points.position, candidates, NOBODY, domain, kernel);
             add(row.row(), values, &|v| points.share[v as usize]);
         }

@@ -274,7 +274,7 @@ impl<const D: usize> Probe<D> for ErodedMass {
         let is_out = |x: f64| self.beyond.is_some_and(|end| sign * (x - end) > 0.0);
         let positions = world.free.get(fields::POSITION)?.iter();
         let all = positions.zip(world.free.get(fields::MASS)?).enumerate();
-        let taken = world.free.removed().iter();
+        let taken = world.free.removed.iter();
         let taken = taken.filter(|t| Some(t.phase) == self.number);
         let (mut out, mut risen) = (taken.map(|t| t.mass).sum(), 0.0);
         for (_, (x, mass)) in all.filter(|(k, _)| bed.has(*k)) {

@@ -79,22 +79,14 @@ fn mistakes_are_named() {
     let misspelt = law.build::<2>(&table("viscosty = 1")).err().unwrap();
     assert!(misspelt.to_string().contains("did you mean `viscosity`?"));
     let dimension = law.build::<3>(&table("viscosity = 1")).err().unwrap();
-    assert!(matches!(
-        dimension,
-        RegistryError::Dimension { dimension: 3, .. }
-    ));
+    assert!(matches!(dimension, RegistryError::Dimension(.., 3)));
 }
 
 #[test]
 fn the_same_name_twice_is_refused() {
     static ONE: LawEntry = same("one");
     static TWO: LawEntry = same("two");
-    let twice = Registry::new()
-        .with(&ONE)
-        .unwrap()
-        .with(&TWO)
-        .err()
-        .unwrap();
+    let twice = Registry::from_entries(vec![&ONE, &TWO]).err().unwrap();
     assert!(matches!(
         twice,
         RegistryError::Duplicate { name: "same", .. }

@@ -69,7 +69,7 @@ impl Drainage {
             diagonal: &scratch.diagonal,
             source: &scratch.source,
         };
-        let owned = space.owned();
+        let owned = &space.owned;
         let assembly = &mut scratch.assembly;
         assembly.fill_wanted(
             world,

@@ -155,11 +155,11 @@ fn ways(bed: &Bed) -> Vec<Way> {
         });
     };
     for place in 0..grid.len() {
-        let next = [0, 1].map(|axis| grid.next(place, axis).filter(|_| grid.count[axis] > 1));
+        let next = [0, 1].map(|axis| grid.step(place, axis, 1).filter(|_| grid.count[axis] > 1));
         push(Some(place), next[0], [1.0, 0.0]);
         push(Some(place), next[1], [0.0, 1.0]);
         if let [Some(right), Some(up)] = next {
-            push(Some(place), grid.next(right, 1), [1.0, 1.0]);
+            push(Some(place), grid.step(right, 1, 1), [1.0, 1.0]);
             push(Some(right), Some(up), [-1.0, 1.0]);
         }
     }

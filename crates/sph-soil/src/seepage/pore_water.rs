@@ -248,7 +248,7 @@ impl<const D: usize> Seeps<D> {
                 source += link.conductance * link.drop;
                 match soil(link.to) {
                     // Rows of copies are with their owners.
-                    true if space.owned().has(particle as usize) => {
+                    true if space.owned.has(particle as usize) => {
                         pattern.columns.push(row[link.to as usize]);
                         values.others.push(-link.conductance);
                     }

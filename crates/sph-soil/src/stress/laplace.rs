@@ -247,7 +247,7 @@ impl<const D: usize> Solve<D> {
         self.parts = parts;
         let (parts, assembly) = (&self.parts, &mut self.assembly);
         let system = Couplings {
-            owned: space.owned(),
+            owned: &space.owned,
             parts,
             volume: world.free.get(fields::VOLUME)?,
             gravity: world.gravity,

@@ -86,7 +86,6 @@ pub fn joined<const D: usize>(
     flow
 }
 
-/// Allocates every column that a planned stage touches.
 fn allocate<const D: usize>(flow: &mut Flow<D>) {
     let stages = &flow.columns.stages;
     let touched = stages
@@ -101,11 +100,8 @@ fn allocate<const D: usize>(flow: &mut Flow<D>) {
         };
         flow.world.free.add_any(field, role);
     }
-    let by_hooks = flow
-        .hooks
-        .all
-        .iter()
-        .map(|hook| hook.access.remembers.clone());
+    let hooks = flow.hooks.all.iter();
+    let by_hooks = hooks.map(|hook| hook.access.remembers.clone());
     let by_gates = flow.gates.iter().map(|gate| gate.access().remembers);
     for field in by_hooks.chain(by_gates).flatten() {
         flow.world.free.add_any(field, Role::State);

@@ -55,10 +55,11 @@ pub fn plugins(scene: &Scene) -> Plugins {
 
 /// The kinds of plugins of a scene whose work has an account of its own in the energy budget.
 pub fn own_accounts(scene: &Scene) -> Vec<&'static str> {
-    let own = |kind: &&str| kind_of(kind).is_some_and(|kind| kind.work == Work::Own);
-    let kinds = scene.kinds_named().filter(own);
-    let kinds = kinds.filter(|kind| sph_contribution::contributes(kind));
-    kinds.collect()
+    let own = |kind: &str| kind_of(kind).is_some_and(|kind| kind.work == Work::Own);
+    let kinds = scene.kinds_named();
+    kinds
+        .filter(|kind| own(kind) && sph_contribution::contributes(kind))
+        .collect()
 }
 
 /// Choices of a scene for things with names of their own.

@@ -50,7 +50,6 @@ pub struct Planning<'a, const D: usize> {
     pub shown: &'a [String],
 }
 
-/// The offers of all parts, each with its kind of plugin.
 type Offers<const D: usize> = Vec<(&'static str, Offer<D>)>;
 
 impl<const D: usize> Planning<'_, D> {
@@ -85,8 +84,7 @@ impl<const D: usize> Planning<'_, D> {
             riding.extend(offer.riding.iter().map(|(_, t)| (t.name(), kind)));
             remedies.extend(offer.remedy.take().map(|remedy| (kind, remedy)));
             let kicking = hooks.kicking.len();
-            let own = offer.hooks.drain(..);
-            own.for_each(|hook| hooks.add(kind, hook));
+            offer.hooks.drain(..).for_each(|hook| hooks.add(kind, hook));
             if hooks.kicking.len() > kicking {
                 // Forces of kicks act before those that follow.
                 std::mem::swap(&mut all.outside, &mut offer.outside);
@@ -95,8 +93,7 @@ impl<const D: usize> Planning<'_, D> {
         }
         remedies.append(&mut all.remedies_of_failures);
         kinds.append(&mut riding);
-        let last = all.riding.drain(..).map(|(_, term)| term);
-        all.terms.extend(last);
+        all.terms.extend(all.riding.drain(..).map(|(_, term)| term));
         let transported = transported_by(&all.terms)?;
         let terms: SharedTerms<D> = std::mem::take(&mut all.terms).into();
         let changed = all.changes_density.then_some(self.diffused);
@@ -116,7 +113,6 @@ impl<const D: usize> Planning<'_, D> {
         })
     }
 
-    /// Collects the offers of all parts in turn.
     fn offers(&self, parts: &mut [Part<D>]) -> Result<Offers<D>, SolverError> {
         let one = |(kind, part): &mut Part<D>| {
             let chosen = self.scene.choice(kind);
@@ -152,7 +148,6 @@ impl<const D: usize> Planning<'_, D> {
         self.shown.iter().any(|name| name == field.name)
     }
 
-    /// Columns that have to be computed.
     fn goals(&self, offer: &Offer<D>, stages: &[Work<D>], later: Vec<AnyField>) -> Vec<AnyField> {
         let mut goals: Vec<AnyField> = vec![fields::ACCELERATION.any()];
         goals.extend(later);
@@ -188,14 +183,13 @@ impl<const D: usize> Planning<'_, D> {
     }
 }
 
-/// The stages that are offered.
 fn offered<const D: usize>(offers: &mut Offers<D>) -> impl Iterator<Item = Work<D>> {
-    let offers = offers.iter_mut();
-    let stages = offers.flat_map(|(_, offer)| offer.stages.drain(..));
+    let stages = offers
+        .iter_mut()
+        .flat_map(|(_, offer)| offer.stages.drain(..));
     stages.map(Work::Stage)
 }
 
-/// Columns that hooks and gates read.
 fn read_later<const D: usize>((_, offer): &(&'static str, Offer<D>)) -> Vec<AnyField> {
     let hooks = offer.hooks.iter().map(|h| h.access());
     let gates = offer.gates.iter().map(|g| g.access());
@@ -209,8 +203,7 @@ fn transported_by<const D: usize>(
     let mut all: Vec<AnyField> = Vec::new();
     for field in terms.iter().flat_map(|t| t.access().writes) {
         if field.shape != Shape::Scalar {
-            let name = field.name;
-            let why = format!("a pair term writes `{name}`, which is no scalar");
+            let why = format!("a pair term writes `{}`, which is no scalar", field.name);
             return Err(SolverError::at("", why));
         }
         if !all.contains(&field) {

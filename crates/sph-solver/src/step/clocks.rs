@@ -11,11 +11,9 @@ pub struct Timing {
     pub spent: Duration,
 }
 
-/// Place of the list refresh among the timings.
 pub(crate) const LISTS: usize = 0;
 /// Name of the time spent on neighbour lists.
 pub const LISTS_NAME: &str = "neighbour lists";
 /// Place of kicks and drifts among the timings; the stages follow, and then the work within a step.
 pub(crate) const MOTION: usize = 1;
-/// Name of the time spent on kicks and drifts.
 pub(crate) const MOTION_NAME: &str = "kick and drift";

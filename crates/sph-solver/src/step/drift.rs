@@ -4,13 +4,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use sph_contribution::StepPhase;
-use sph_core::{AnyField, StepError, fields};
+use sph_core::{AnyField, Field, FieldError, StepError, Vector, fields};
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, writes_any};
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
 /// The stage in which walls move.
@@ -63,18 +62,12 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Particles and walls follow their velocities for a time.
     fn advance(&mut self, dt: f64) -> Result<(), StepError> {
         let start = Instant::now();
-        let mut position = self.world.free.take(fields::POSITION)?;
-        let velocity = self.world.free.get(fields::VELOCITY)?;
-        let all = position.par_iter_mut().zip(velocity).with_min_len(BATCH);
-        match self.world.free.get(fields::SHIFT_VELOCITY) {
-            Err(_) => all.for_each(|(x, u)| *x += u * dt),
-            Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
+        self.carry(fields::POSITION, dt)?;
+        if self.world.free.has(fields::DISPLACEMENT.name) {
+            self.carry(fields::DISPLACEMENT, dt)?;
         }
-        self.world.free.put(fields::POSITION, position)?;
-        self.displace(dt)?;
         self.moved = true;
         let time = self.world.time;
         self.world.time += dt;
@@ -91,20 +84,16 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Adds the way of a drift to the displacements, where they are kept.
-    fn displace(&mut self, dt: f64) -> Result<(), StepError> {
+    /// Adds the way of a drift to positions or displacements.
+    fn carry(&mut self, field: Field<Vector>, dt: f64) -> Result<(), FieldError> {
         let free = &mut self.world.free;
-        if !free.has(fields::DISPLACEMENT.name) {
-            return Ok(());
-        }
-        let mut displacement = free.take(fields::DISPLACEMENT)?;
+        let mut places = free.take(field)?;
         let velocity = free.get(fields::VELOCITY)?;
-        let all = displacement.par_iter_mut().zip(velocity);
-        let all = all.with_min_len(BATCH);
+        let all = places.par_iter_mut().zip(velocity).with_min_len(BATCH);
         match free.get(fields::SHIFT_VELOCITY) {
-            Err(_) => all.for_each(|(d, u)| *d += u * dt),
-            Ok(shift) => all.zip(shift).for_each(|((d, u), s)| *d += (u + s) * dt),
+            Err(_) => all.for_each(|(x, u)| *x += u * dt),
+            Ok(shift) => all.zip(shift).for_each(|((x, u), s)| *x += (u + s) * dt),
         }
-        Ok(free.put(fields::DISPLACEMENT, displacement)?)
+        free.put(field, places)
     }
 }

@@ -11,13 +11,10 @@ use sph_rheology::state::Laws;
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 1024;
 
-/// An account: the column of the work of one part.
 type Account = Field<Scalar>;
 
-/// The account of a work of this project.
 fn own(work: EnergyWork) -> Account {
     ENERGY_WORKS[work as usize]
 }
@@ -49,7 +46,6 @@ fn of_terms(kind: &str) -> Option<Account> {
     })
 }
 
-/// The account of the work of a kind's hooks.
 fn of_hooks(kind: &str) -> Account {
     match kind_of(kind).map(|kind| kind.work) {
         Some(Work::Damping) => own(EnergyWork::Damping),
@@ -67,11 +63,8 @@ pub struct EnergyBudget<const D: usize> {
     laws: Laws,
     /// The account of every term, by its name; none: the pressure.
     terms: Vec<(String, Option<Account>)>,
-    /// The accounts of the classes of terms.
     classes: Vec<Account>,
-    /// Account of the work of every hook, in their order.
     hooks: Vec<Account>,
-    /// The number of the hook that kicks, if there is one.
     kicker: Option<usize>,
     /// Velocities before the kick, m/s.
     before: Vec<Vect<D>>,
@@ -89,7 +82,6 @@ pub struct EnergyBudget<const D: usize> {
     unused: Vec<Vect<D>>,
 }
 
-/// Adds work to a column of the books.
 fn add_work<const D: usize>(
     world: &mut World<D>,
     field: Field<Scalar>,
@@ -174,8 +166,7 @@ impl<const D: usize> EnergyBudget<D> {
         let now = self.compression(world, density)?;
         let booked = world.free.get(BOOKED_COMPRESSION)?;
         if booked.iter().any(|b| b.is_nan()) {
-            let mass = world.free.get(fields::MASS)?;
-            let velocity = world.free.get(fields::VELOCITY)?;
+            let (mass, velocity) = world.free.all((fields::MASS, fields::VELOCITY))?;
             let position = world.free.get(fields::POSITION)?;
             let start = per_particle(now.len(), |i| {
                 let high = -world.steady_gravity.dot(&position[i]);
@@ -328,13 +319,10 @@ impl<const D: usize> EnergyBudget<D> {
         add_work(world, of, &work)
     }
 
-    /// Books velocities that were changed.
     fn turned(&mut self, world: &mut World<D>, of: Account) -> Result<(), FieldError> {
-        let mass = world.free.get(fields::MASS)?;
-        let now = world.free.get(fields::VELOCITY)?;
+        let (mass, now) = world.free.all((fields::MASS, fields::VELOCITY))?;
         let gain = per_particle(now.len(), |i| {
-            let squares = now[i].norm_squared() - self.velocity[i].norm_squared();
-            0.5 * mass[i] * squares
+            0.5 * mass[i] * (now[i].norm_squared() - self.velocity[i].norm_squared())
         });
         now.to_vec().clone_into(&mut self.velocity);
         add_work(world, of, &gain)
@@ -382,7 +370,7 @@ impl<const D: usize> EnergyBudget<D> {
         done.map(|()| sum)
     }
 
-    /// Energy of compression of all particles at densities, J.
+    /// Energy of compression, J.
     fn compression(&self, world: &World<D>, density: &[f64]) -> Result<Vec<f64>, FieldError> {
         let mass = world.free.get(fields::MASS)?;
         let phase = world.free.get(fields::PHASE).ok();

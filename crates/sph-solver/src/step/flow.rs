@@ -57,15 +57,12 @@ pub struct Flow<const D: usize> {
     pub gates: Vec<Box<dyn Gate<D>>>,
     /// Energy that particles store.
     pub stored: Vec<Box<dyn StoredEnergy<D>>>,
-    /// Forces outside of the sweep.
     pub(crate) outside: Vec<OutsideForce<D>>,
-    /// Declarations of all of these.
     pub(crate) columns: Columns,
     /// True if particles moved since the last evaluation.
     pub moved: bool,
     /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
-    /// The state that an integrator keeps within a step.
     pub(crate) kept: Snapshot<D>,
     /// Accelerations and scalar rates of the kept state.
     pub(crate) kept_rates: KeptRates<D>,
@@ -75,13 +72,13 @@ pub struct Flow<const D: usize> {
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
     pub kinematic_viscosities: Vec<f64>,
-    /// The pair terms of the interaction sweep.
     pub(crate) terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The plugin of every term, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
     /// Remedies where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
     pub remedies: Vec<(&'static str, String)>,
-    pub(crate) timings: Vec<Timing>,
+    /// Time spent per stage and service since the assembly.
+    pub timings: Vec<Timing>,
     /// The change of gravity, if there is one.
     pub(crate) swing: Option<VariableGravity<D>>,
     /// The outlets.
@@ -98,7 +95,7 @@ impl<const D: usize> Flow<D> {
     /// Smallest step limit with its name; the smallest of all plugins.
     ///
     /// # Errors
-    /// If a limiter misses a column.
+    /// If a column is missing, as everywhere below.
     pub fn step_limits(&self) -> Result<Vec<StepLimit>, StepError> {
         let mut limits = Vec::new();
         self.step_limits_into(&mut limits)?;
@@ -140,10 +137,7 @@ impl<const D: usize> Flow<D> {
         }
         Ok(all)
     }
-}
 
-impl<const D: usize> Flow<D> {
-    /// Runs the hooks of a phase, in their order.
     pub(crate) fn run_hooks(&mut self, phase: StepPhase, dt: f64) -> Result<(), StepError> {
         for n in 0..self.hooks.during(phase).len() {
             let k = self.hooks.during(phase)[n];
@@ -177,10 +171,7 @@ impl<const D: usize> Flow<D> {
     ) -> Result<(), StepError> {
         let start = Instant::now();
         let Hooked { hook, access, .. } = &mut self.hooks.all[number];
-        let more = match binds {
-            true => &self.columns.forces[..],
-            false => &[],
-        };
+        let more = if binds { &self.columns.forces[..] } else { &[] };
         self.world.free.watch(more.iter().chain([&*access]));
         let mut moment = StepMoment {
             world: &mut self.world,
@@ -192,14 +183,12 @@ impl<const D: usize> Flow<D> {
             on_walls: &mut self.on_walls,
         };
         let done = work(&mut **hook, &mut moment);
-        let ended = self.world.free.unwatch(|| hook.name());
-        ended.and(done)?;
+        self.world.free.unwatch(|| hook.name()).and(done)?;
         self.world.refresh(access)?;
         self.timings[MOTION + 1 + self.stages.len() + number].spent += start.elapsed();
         Ok(())
     }
 
-    /// Shows the flow to the observers at a boundary within a step.
     pub(crate) fn observe(&mut self, at: Boundary, dt: f64) -> Result<(), StepError> {
         let mut seen = ObservedFlow {
             world: &mut self.world,
@@ -275,9 +264,6 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Measures the forces on the wanted walls at the state of the last evaluation; those on others are NaN.
-    ///
-    /// # Errors
-    /// If a term misses a column.
     pub fn measure_wall_forces(&mut self, wanted: impl Fn(&str) -> bool) -> Result<(), StepError> {
         if !self.world.free.has(fields::ACCELERATION.name) || self.world.lists.builds == 0 {
             return Ok(());
@@ -308,14 +294,6 @@ impl<const D: usize> Flow<D> {
         self.reports().filter_map(keyed).collect()
     }
 
-    /// Particles behind a wall.
-    ///
-    /// # Errors
-    /// If there is no position column.
-    pub fn escaped(&self) -> Result<usize, StepError> {
-        self.escaped_from(self.walls.as_deref())
-    }
-
     /// Particles behind one of these walls.
     pub fn escaped_from(&self, walls: Option<&dyn Wall<D>>) -> Result<usize, StepError> {
         let Some(walls) = walls else {
@@ -336,12 +314,6 @@ impl<const D: usize> Flow<D> {
             range = [range[0].min(ratio), range[1].max(ratio)];
         }
         (!constant.is_empty()).then_some(range)
-    }
-
-    /// Names of the columns that the stages of the plan write.
-    pub(crate) fn written_by_stages(&self) -> Vec<&'static str> {
-        let writes = self.columns.stages.iter().flat_map(|a| &a.writes);
-        writes.map(|f| f.name).collect()
     }
 
     /// Names of the columns that carry history, in order of allocation.
@@ -368,10 +340,5 @@ impl<const D: usize> Flow<D> {
         let names = services.into_iter().chain(stages).chain(hooks);
         let spent = Duration::ZERO;
         self.timings = names.map(|name| Timing { name, spent }).collect();
-    }
-
-    /// Time spent per stage and service since the assembly.
-    pub fn timings(&self) -> &[Timing] {
-        &self.timings
     }
 }

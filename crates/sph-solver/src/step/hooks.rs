@@ -45,7 +45,6 @@ impl<const D: usize> Hooks<D> {
     }
 }
 
-/// A boundary between two parts of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Boundary {
     /// The stages have run.
@@ -64,10 +63,8 @@ pub(crate) enum Boundary {
     Drifts,
 }
 
-/// The flow at a boundary.
 pub(crate) struct ObservedFlow<'a, const D: usize> {
     pub world: &'a mut World<D>,
-    /// The terms of the sweep.
     pub terms: &'a [Box<dyn Interaction<D>>],
     /// Length of the kick or drift, s.
     pub dt: f64,
@@ -75,10 +72,6 @@ pub(crate) struct ObservedFlow<'a, const D: usize> {
 
 /// An observer of a flow at the boundaries within its steps.
 pub(crate) trait Observer<const D: usize>: Send {
-    /// Looks.
-    ///
-    /// # Errors
-    /// If a column is missing.
     fn observe(&mut self, at: Boundary, seen: &mut ObservedFlow<'_, D>) -> Result<(), StepError>;
 }
 
@@ -91,7 +84,6 @@ pub(crate) struct Columns {
     pub forces: Vec<Access>,
 }
 
-/// True if one of these columns is written.
 pub(crate) fn writes_any(access: &Access, fields: &[AnyField]) -> bool {
     fields.iter().any(|f| access.writes.contains(f))
 }

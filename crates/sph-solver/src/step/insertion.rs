@@ -2,9 +2,9 @@
 
 use sph_contribution::{Birth, Initial, Newborn};
 use sph_core::{FieldError, StepError, fields};
+use sph_multiphase::Formulation;
 
 use crate::step::flow::Flow;
-use crate::step::new_particles::NewParticleDefaults;
 
 impl<const D: usize> Flow<D> {
     /// Lets in particles born at the end of a step of `dt` seconds.
@@ -12,24 +12,17 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// If a new particle is impossible, or a column is missing.
     pub fn let_in(&mut self, dt: f64) -> Result<(), StepError> {
-        let Some(nursery) = self.nursery.take() else {
+        if self.nursery.is_none() {
             return Ok(());
-        };
-        let done = self.bear(&nursery, dt);
-        self.nursery = Some(nursery);
-        done
-    }
-
-    fn bear(&mut self, nursery: &NewParticleDefaults<D>, dt: f64) -> Result<(), StepError> {
+        }
         let mut all: Vec<Newborn<D>> = Vec::new();
         for (gate, access) in self.gates.iter_mut().zip(&self.columns.gates) {
             self.world.free.watch([access]);
             let born = gate.births(&mut self.world, dt);
-            let ended = self.world.free.unwatch(|| gate.name());
-            ended?;
+            self.world.free.unwatch(|| gate.name())?;
             all.extend(born?);
         }
-        self.insert_all(nursery, &all)
+        self.insert(&all)
     }
 
     /// Lets in these particles.
@@ -37,37 +30,27 @@ impl<const D: usize> Flow<D> {
     /// # Errors
     /// As [`let_in`](Self::let_in); a flow that no particle may come into.
     pub fn insert(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
-        let Some(nursery) = self.nursery.take() else {
+        let Some(nursery) = &self.nursery else {
             let why = "no particle may come into this flow";
             return Err(StepError::stage("births", why));
         };
-        let done = self.insert_all(&nursery, all);
-        self.nursery = Some(nursery);
-        done
-    }
-
-    fn insert_all(
-        &mut self,
-        nursery: &NewParticleDefaults<D>,
-        all: &[Newborn<D>],
-    ) -> Result<(), StepError> {
+        let formulation = nursery.formulation.clone();
         if all.is_empty() {
             return Ok(());
         }
         for newborn in all {
             self.refuse(newborn)?;
         }
-        let first = self.world.free.inserted().identities;
-        self.fill(nursery, all)?;
+        let first = self.world.free.inserted.identities;
+        self.fill(all)?;
         // Where they are follows from their places alone, whatever the order in which they were born.
         self.refresh_lists_and_derived()?;
         if let Some(walls) = &mut self.walls {
             walls.geometry(&mut self.world)?;
         }
-        self.begin_density(nursery, first)
+        self.begin_density(&*formulation, first)
     }
 
-    /// Refuses impossible particles.
     fn refuse(&self, newborn: &Newborn<D>) -> Result<(), StepError> {
         let sound = newborn.mass > 0.0
             && newborn.mass.is_finite()
@@ -90,12 +73,10 @@ impl<const D: usize> Flow<D> {
         Err(StepError::stage("births", why))
     }
 
-    /// Gives newborn particles their columns.
-    fn fill(
-        &mut self,
-        nursery: &NewParticleDefaults<D>,
-        all: &[Newborn<D>],
-    ) -> Result<(), StepError> {
+    fn fill(&mut self, all: &[Newborn<D>]) -> Result<(), StepError> {
+        let Some(nursery) = &self.nursery else {
+            return Ok(());
+        };
         let free = &mut self.world.free;
         let slots = free.give_birth(all.len())?;
         if let Some(parts) = &self.parts {
@@ -103,9 +84,8 @@ impl<const D: usize> Flow<D> {
             let places: Vec<_> = all.iter().map(|n| n.position).collect();
             parts.house(free, slots.clone(), &places)?;
         }
-        let mut born = free.inserted();
         for (slot, newborn) in slots.clone().zip(all) {
-            born.mass += newborn.mass;
+            free.inserted.mass += newborn.mass;
             free.get_mut(fields::POSITION)?[slot] = newborn.position;
             free.get_mut(fields::VELOCITY)?[slot] = newborn.velocity;
             free.get_mut(fields::MASS)?[slot] = newborn.mass;
@@ -114,7 +94,6 @@ impl<const D: usize> Flow<D> {
                 free.get_mut(fields::PHASE)?[slot] = newborn.phase;
             }
         }
-        free.set_inserted(born);
         for column in &nursery.columns {
             for (slot, newborn) in slots.clone().zip(all) {
                 let birth = Birth {
@@ -147,14 +126,14 @@ impl<const D: usize> Flow<D> {
     /// have their densities.
     fn begin_density(
         &mut self,
-        nursery: &NewParticleDefaults<D>,
+        formulation: &dyn Formulation<D>,
         first: u32,
     ) -> Result<(), StepError> {
         let free = &self.world.free;
         let before = self.integrated.iter();
         let before = before.map(|f| Ok((*f, free.get(*f)?.to_vec())));
         let before = before.collect::<Result<Vec<_>, FieldError>>()?;
-        nursery.formulation.rebase(&mut self.world)?;
+        formulation.rebase(&mut self.world)?;
         let identity = self.world.free.get(fields::IDENTITY)?.to_vec();
         for (field, values) in before {
             let column = self.world.free.get_mut(field)?.iter_mut();

@@ -54,7 +54,6 @@ pub struct SavedParticles<const D: usize> {
 }
 
 impl<const D: usize> SavedParticles<D> {
-    /// Copies the particles of a rank.
     pub(crate) fn keep(&mut self, parts: Option<&Parts<D>>, world: &World<D>) {
         if parts.is_some() {
             self.free = Some(world.free.copied());

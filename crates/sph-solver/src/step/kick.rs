@@ -5,13 +5,12 @@ use std::time::Instant;
 use rayon::prelude::*;
 use sph_contribution::StepPhase;
 use sph_core::{StepError, fields};
-use sph_neighbours::{WallForce, facing_forces, reactions};
+use sph_neighbours::{WallForce, loads, reactions};
 
 use crate::step::clocks::MOTION;
 use crate::step::flow::Flow;
 use crate::step::hooks::Boundary;
 
-/// Particles that one thread takes at least.
 const BATCH: usize = 2048;
 
 impl<const D: usize> Flow<D> {
@@ -69,10 +68,7 @@ impl<const D: usize> Flow<D> {
     /// If a term misses a column.
     pub fn wall_loads(&self, force_requests: &[bool]) -> Result<Vec<WallForce<D>>, StepError> {
         let terms: Vec<_> = self.terms.iter().map(|t| &**t).collect();
-        let mut loads = reactions(&self.world, &terms, force_requests)?;
-        let facing = facing_forces(&self.world, force_requests)?;
-        let both = loads.iter_mut().zip(&facing);
-        both.for_each(|(f, more)| f.add(more));
+        let mut loads = loads(&self.world, &terms, force_requests)?;
         for (wall, finer) in &self.finer_loads {
             loads[*wall] = *finer;
         }
@@ -81,10 +77,8 @@ impl<const D: usize> Flow<D> {
 
     /// Measures the depth of the fluid before walls whose movers need it.
     fn look_before_walls(&mut self) -> Result<(), StepError> {
-        let Some(walls) = &self.walls else {
-            return Ok(());
-        };
-        let depth_gauges = walls.depth_gauges();
+        let walls = self.walls.as_ref();
+        let depth_gauges = walls.map_or(Vec::new(), |walls| walls.depth_gauges());
         if depth_gauges.is_empty() {
             return Ok(());
         }
@@ -103,11 +97,8 @@ impl<const D: usize> Flow<D> {
         if !self.outside.is_empty() {
             let outside: Vec<_> = self.outside.iter().map(|f| &**f).collect();
             let more = reactions(&self.world, &outside, force_requests)?;
-            let walls = self.loads.iter_mut().zip(more);
-            walls.for_each(|(whole, more)| {
-                whole.force += more.force;
-                (0..3).for_each(|k| whole.moment[k] += more.moment[k]);
-            });
+            let walls = self.loads.iter_mut().zip(&more);
+            walls.for_each(|(whole, more)| whole.add(more));
         }
         let walls = self.loads.iter_mut().zip(&self.on_walls);
         walls.for_each(|(whole, own)| whole.add(own));

@@ -9,7 +9,6 @@ use sph_scene::Scene;
 use crate::Flow;
 use crate::step::outlets::OutletTotals;
 
-/// A particle that leaves.
 struct LeavingParticle<const D: usize> {
     identity: u32,
     /// Number of the count in which it is.
@@ -49,22 +48,19 @@ impl<const D: usize> Flow<D> {
 
     /// Counts the exits of all gates behind the outlets, and behind these the border of the domain where walls end freely.
     pub fn know_exits(&mut self, scene: &Scene) {
-        let mut taken = self.world.free.removed().to_vec();
+        let taken = &mut self.world.free.removed;
         let exits = self.gates.iter().flat_map(|gate| gate.exits());
         for (exit, name) in (self.outlets.all.len()..).zip(exits) {
             taken.extend(self.outlets.label(&format!("open.{name}"), exit, scene));
         }
         self.outlets.named = self.outlets.labels.len();
         if self.walls.as_ref().is_some_and(|w| w.ends_freely()) {
-            let phases = scene.phase.len().max(1);
-            let border = self.outlets.named / phases;
+            let border = self.outlets.named / scene.phase.len().max(1);
             self.outlets.border = Some(border);
             taken.extend(self.outlets.label("domain", border, scene));
         }
-        self.world.free.set_removed(taken);
     }
 
-    /// Takes out particles that gates let out, and counts them.
     fn by_gates(&mut self, dt: f64) -> Result<(), StepError> {
         let mut first = self.outlets.all.len();
         for k in 0..self.gates.len() {
@@ -86,8 +82,7 @@ impl<const D: usize> Flow<D> {
         if !self.any_rank(!gone.is_empty())? {
             return Ok(());
         }
-        let leavers = gone.iter().map(|(p, exit)| (*p as usize, first + exit));
-        self.count_leavers(leavers)?;
+        self.count_leavers(gone.iter().map(|(p, exit)| (*p as usize, first + exit)))?;
         if !gone.is_empty() {
             let free = &mut self.world.free;
             let mut leaves = vec![false; free.len()];
@@ -97,7 +92,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Takes out particles in an outlet.
     fn by_outlets(&mut self, dt: f64) -> Result<(), StepError> {
         let (all, border) = (&self.outlets.all, self.outlets.border);
         if all.is_empty() && border.is_none() {
@@ -121,10 +115,7 @@ impl<const D: usize> Flow<D> {
         };
         let places = || position.par_iter().enumerate().with_min_len(2048).map(by);
         let some = places().any(|outlet| outlet.is_some());
-        let left: Vec<Option<usize>> = match some {
-            true => places().collect(),
-            false => Vec::new(),
-        };
+        let left: Vec<Option<usize>> = if some { places().collect() } else { Vec::new() };
         if !self.any_rank(some)? {
             return Ok(());
         }
@@ -160,33 +151,29 @@ impl<const D: usize> Flow<D> {
         });
         let mut leavers = self.world.of_all(leavers.collect())?;
         leavers.sort_unstable_by_key(|leaver| leaver.identity);
-        let mut taken = self.world.free.removed().to_vec();
         for leaver in &leavers {
-            let count = &mut taken[leaver.count];
+            let count = &mut self.world.free.removed[leaver.count];
             count.mass += leaver.mass;
             count.particles += 1;
         }
-        self.world.free.set_removed(taken);
         Ok(leavers.iter().map(|leaver| leaver.position).collect())
     }
 
     /// Counts of a resumed run: mass as bits, and particles.
     pub fn recount(&mut self, left: &[[u64; 2]]) {
-        let mut taken = self.world.free.removed().to_vec();
-        for (count, [mass, particles]) in taken.iter_mut().zip(left) {
+        for (count, [mass, particles]) in self.world.free.removed.iter_mut().zip(left) {
             (count.mass, count.particles) = (f64::from_bits(*mass), *particles);
         }
-        self.world.free.set_removed(taken);
     }
 
     /// Mass that has left, kg.
     pub fn mass_left(&self) -> f64 {
-        self.world.free.removed().iter().map(|t| t.mass).sum()
+        self.world.free.removed.iter().map(|t| t.mass).sum()
     }
 
     /// Mass and particles that left, by the labels of the outlets and phases.
     pub fn left(&self) -> impl Iterator<Item = (&String, OutletTotals)> {
-        let taken = self.world.free.removed().iter().map(|t| OutletTotals {
+        let taken = self.world.free.removed.iter().map(|t| OutletTotals {
             mass: t.mass,
             particles: t.particles,
         });

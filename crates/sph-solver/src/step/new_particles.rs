@@ -11,7 +11,6 @@ pub struct NewParticleDefaults<const D: usize> {
     pub(crate) formulation: Arc<dyn Formulation<D>>,
     /// Columns that contributions bring along.
     pub(crate) columns: Vec<OwnColumn<D>>,
-    /// Names of the phases.
     pub(crate) phases: Vec<String>,
 }
 

@@ -57,7 +57,7 @@ impl Outlets {
                 problems.push(SceneProblem::new(format!("outlet.{name}"), message));
             }
         }
-        free.set_removed(taken);
+        free.removed = taken;
         outlets.named = outlets.labels.len();
         match problems.is_empty() {
             true => Ok(outlets),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sph_core::{Slots, StepError, StepLimit, fields};
+use sph_core::{Role, Slots, StepError, StepLimit, fields};
 use sph_neighbours::World;
 use sph_neighbours::decomposition::{PartError, Parts, Transport};
 
@@ -56,7 +56,6 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Builds the lists anew, with all ranks where there are several.
     pub(crate) fn rebuild_lists(&mut self) -> Result<(), StepError> {
         match &mut self.parts {
             None => Ok(self.world.rebuild_lists()?),
@@ -99,9 +98,7 @@ impl<const D: usize> Flow<D> {
             Some(parts) => Ok(parts.link.any(false, own)?),
         }
     }
-}
 
-impl<const D: usize> Flow<D> {
     /// Refreshes the lists. Where that sorts the particles, their derived columns are sorted, too: pressures and volumes of
     /// the last evaluation remain those of the same particles.
     pub(crate) fn refresh_lists_and_derived(&mut self) -> Result<(), StepError> {
@@ -122,7 +119,7 @@ impl<const D: usize> Flow<D> {
         }
         let slots = Slots::from_identities(&earlier);
         let order: Vec<u32> = now.iter().filter_map(|&id| slots.slot(id)).collect();
-        self.world.free.permute_derived(&order);
+        self.world.free.permute(Role::Derived, &order);
         Ok(())
     }
 }

@@ -4,7 +4,6 @@ use sph_boundary::{Wall, WallStates};
 use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
-/// The walls, and the loads of their movers.
 pub(crate) type MovedWalls<'a, const D: usize> = (
     Option<&'a mut (dyn Wall<D> + 'static)>,
     &'a mut Vec<WallForce<D>>,
@@ -23,7 +22,6 @@ pub struct Snapshot<const D: usize> {
 }
 
 impl<const D: usize> Snapshot<D> {
-    /// Copies the state; reuses its buffers.
     pub(crate) fn save(
         &mut self,
         world: &World<D>,
@@ -69,7 +67,6 @@ impl<const D: usize> Snapshot<D> {
     }
 
     /// Puts part of the state back, for any present order of the particles.
-    ///
     /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, the start of
     /// a solve) is left as the last evaluation made it: only motion is undone.
     pub(crate) fn recall(

@@ -72,16 +72,13 @@ impl<const D: usize> Declares for Work<D> {
     fn access(&self) -> Access {
         match self {
             Work::WallGeometry { columns } => {
-                let mut access = Access::none().here(fields::POSITION).here(fields::IDENTITY);
+                let mut access = Access::none().here((fields::POSITION, fields::IDENTITY));
                 access.writes.extend(columns);
                 access
             }
             Work::WallState => Access::none()
-                .neighbours(fields::POSITION)
-                .neighbours(fields::VELOCITY)
-                .neighbours(fields::PRESSURE)
-                .neighbours(fields::DENSITY)
-                .neighbours(fields::VOLUME)
+                .neighbours((fields::POSITION, fields::VELOCITY, fields::PRESSURE))
+                .neighbours((fields::DENSITY, fields::VOLUME))
                 .here(fields::IDENTITY)
                 .where_there(fields::PHASE)
                 .writes(WALL_STATE),
@@ -92,14 +89,11 @@ impl<const D: usize> Declares for Work<D> {
 
 /// All pair terms in one walk.
 pub struct InteractionSweep<const D: usize> {
-    /// The terms, fused where a fusion is registered.
     terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The column that density diffusion changes, if there is any.
     diffused: Option<Diffused>,
-    /// True if walls exist.
     walls: bool,
     declared: Vec<Access>,
-    /// Buffer of rates that terms sum besides.
     more: Vec<[f64; TRANSPORTED]>,
 }
 
@@ -138,7 +132,6 @@ impl<const D: usize> InteractionSweep<D> {
         all_sums(world, &self.declared, &self.terms, sums)
     }
 
-    /// Rates into their columns.
     fn spread(&self, world: &mut World<D>) -> Result<(), StepError> {
         for (slot, field) in world.transported.iter().enumerate() {
             let rates = world.free.get_mut(field.scalar())?.par_iter_mut();
@@ -159,10 +152,8 @@ impl<const D: usize> Declares for InteractionSweep<D> {
             .both(fields::POSITION)
             .writes(fields::ACCELERATION);
         if let Some(diffused) = &self.diffused {
-            access = access
-                .here(fields::DENSITY)
-                .here(fields::VOLUME)
-                .writes(diffused.evolved.rate);
+            access = access.here((fields::DENSITY, fields::VOLUME));
+            access = access.writes(diffused.evolved.rate);
         }
         if self.walls {
             access = access.here(WALL_STATE);
@@ -182,8 +173,7 @@ impl<const D: usize> Stage<World<D>> for InteractionSweep<D> {
                 let mut scalar = world.free.take(field)?;
                 self.sweep(world, &mut acceleration, Some(&mut scalar))?;
                 let free = &world.free;
-                let density = free.get(fields::DENSITY)?;
-                let volume = free.get(fields::VOLUME)?;
+                let (density, volume) = free.all((fields::DENSITY, fields::VOLUME))?;
                 let gamma = world.sum_renormalisation();
                 let half = world.lists.sweep_half.as_ref();
                 let rates = scalar.par_iter_mut().zip(density).zip(volume).enumerate();

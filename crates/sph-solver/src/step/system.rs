@@ -9,7 +9,6 @@ use sph_core::{AnyField, Recall, StepError, StepLimit, System, fields};
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, writes_any};
 
-/// The motions of [`System`].
 enum Motion {
     Evaluate,
     EvaluateForces,
@@ -39,33 +38,24 @@ fn space(flow: &mut Flow<3>, motion: Motion) -> Result<(), StepError> {
     flow.perform(motion)
 }
 
+/// Methods that each perform a motion.
+macro_rules! motions {
+    ($($method:ident($($value:ident: $type:ty)?) => $motion:expr;)+) => {$(
+        fn $method(&mut self $(, $value: $type)?) -> Result<(), StepError> {
+            perform(self, $motion)
+        }
+    )+};
+}
+
 impl<const D: usize> System for Flow<D> {
-    fn evaluate(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::Evaluate)
-    }
-
-    fn evaluate_forces(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::EvaluateForces)
-    }
-
-    fn keep(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::Keep)
-    }
-
-    fn recall(&mut self, what: Recall) -> Result<(), StepError> {
-        perform(self, Motion::Recall(what))
-    }
-
-    fn average_rates(&mut self) -> Result<(), StepError> {
-        perform(self, Motion::AverageRates)
-    }
-
-    fn kick(&mut self, dt: f64) -> Result<(), StepError> {
-        perform(self, Motion::Kick(dt))
-    }
-
-    fn drift(&mut self, dt: f64) -> Result<(), StepError> {
-        perform(self, Motion::Drift(dt))
+    motions! {
+        evaluate() => Motion::Evaluate;
+        evaluate_forces() => Motion::EvaluateForces;
+        keep() => Motion::Keep;
+        recall(what: Recall) => Motion::Recall(what);
+        average_rates() => Motion::AverageRates;
+        kick(dt: f64) => Motion::Kick(dt);
+        drift(dt: f64) => Motion::Drift(dt);
     }
 
     fn time(&self) -> f64 {
@@ -89,7 +79,7 @@ impl<const D: usize> Flow<D> {
     /// state is one to which a run came back, of which it was a part.
     ///
     /// # Errors
-    /// Those of stages, and of the change.
+    /// Those of stages, as below, and of the change.
     pub fn evaluate_with(
         &mut self,
         change: impl FnOnce(&mut Self, bool) -> Result<(), StepError>,
@@ -102,9 +92,6 @@ impl<const D: usize> Flow<D> {
     }
 
     /// Computes densities again, whose constants a change of [`evaluate_with`](Self::evaluate_with) has moved.
-    ///
-    /// # Errors
-    /// Those of stages.
     pub fn sum_densities(&mut self) -> Result<(), StepError> {
         self.run_wanted(false, |stage| writes_any(stage, &DENSITIES[1..]))
     }
@@ -128,10 +115,10 @@ impl<const D: usize> Flow<D> {
                 Ok(())
             }
             Motion::Recall(what) => {
-                let by_stages = match what {
-                    Recall::State => self.written_by_stages(),
-                    Recall::Motion | Recall::Scalars => Vec::new(),
-                };
+                let stages = self.columns.stages.iter();
+                let stages = stages.filter(|_| what == Recall::State);
+                let writes = stages.flat_map(|a| &a.writes);
+                let by_stages: Vec<_> = writes.map(|f| f.name).collect();
                 self.kept_follows()?;
                 let named = (&self.integrated[..], &by_stages[..]);
                 let walls = (self.walls.as_deref_mut(), &mut self.loads);

@@ -6,35 +6,21 @@ use sph_neighbours::{ClassRate, class_rates};
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, ObservedFlow, Observer};
 
-/// Membership of a class of terms.
-type Holds = fn(Work) -> bool;
-
-const fn column(name: &'static str, meaning: &'static str) -> Field<Vector> {
-    Field::new(name, "m/s²", meaning)
+sph_core::fields! {
+    /// Its part of the walls is among it.
+    PRESSURE: Vector = "pressure_acceleration", "m/s²", "acceleration by pressure";
+    /// Friction of eddies and of walls is among it.
+    FRICTION: Vector = "viscous_acceleration", "m/s²", "acceleration by friction";
+    SHIFTING: Vector = "shifting_acceleration", "m/s²", "acceleration by shifted momentum";
+    OTHERS: Vector = "other_acceleration", "m/s²", "acceleration by all other terms of the sweep";
 }
 
-/// Acceleration by the terms of a class of every particle at the last kick, m/s². That of the pressure has its part of
-/// the walls; that of friction the eddies' and the walls'.
-const COLUMNS: [(Field<Vector>, Holds); 4] = [
-    (
-        column("pressure_acceleration", "acceleration by pressure"),
-        |work| matches!(work, Work::Pressure),
-    ),
-    (
-        column("viscous_acceleration", "acceleration by friction"),
-        |work| matches!(work, Work::Friction),
-    ),
-    (
-        column("shifting_acceleration", "acceleration by shifted momentum"),
-        |work| matches!(work, Work::Shifting),
-    ),
-    (
-        column(
-            "other_acceleration",
-            "acceleration by all other terms of the sweep",
-        ),
-        |work| !matches!(work, Work::Pressure | Work::Friction | Work::Shifting),
-    ),
+/// Acceleration of every particle at the last kick by terms with a work, the last one by all others.
+const COLUMNS: [(Field<Vector>, Option<Work>); 4] = [
+    (PRESSURE, Some(Work::Pressure)),
+    (FRICTION, Some(Work::Friction)),
+    (SHIFTING, Some(Work::Shifting)),
+    (OTHERS, None),
 ];
 
 /// Names of the columns.
@@ -42,7 +28,6 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     COLUMNS.iter().map(|(field, _)| field.name)
 }
 
-/// Writes the columns at every kick.
 struct TermAccelerations {
     columns: Vec<usize>,
     /// The class of every term, by its name.
@@ -63,7 +48,7 @@ pub fn open<const D: usize>(shown: &[String], flow: &mut Flow<D>) {
     }
     let class = |kind: &str| {
         let work = kind_of(kind).map_or(Work::Others, |kind| kind.work);
-        let class = COLUMNS.iter().position(|(_, holds)| holds(work));
+        let class = COLUMNS.iter().position(|(_, of)| *of == Some(work));
         class.unwrap_or(COLUMNS.len() - 1)
     };
     let kinds = flow.kinds.iter();

@@ -41,8 +41,7 @@ impl<const D: usize> AddedGravity<D> {
                 match rows.get(after).filter(|_| after > 0) {
                     None => before.1,
                     Some(next) => {
-                        let share = (time - before.0) / (next.0 - before.0);
-                        before.1 + (next.1 - before.1) * share
+                        before.1 + (next.1 - before.1) * ((time - before.0) / (next.0 - before.0))
                     }
                 }
             }

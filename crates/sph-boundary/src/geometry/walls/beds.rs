@@ -164,7 +164,7 @@ fn filled(grid: &LevelGrid, mut levels: Vec<Option<f64>>) -> Option<Vec<f64>> {
         let known = levels.clone();
         let mut sums = vec![(0.0, 0.0); grid.len()];
         for place in 0..grid.len() {
-            for other in (0..2).filter_map(|axis| grid.next(place, axis)) {
+            for other in (0..2).filter_map(|axis| grid.step(place, axis, 1)) {
                 for (a, b) in [(place, other), (other, place)] {
                     if let Some(level) = known[b] {
                         sums[a] = (sums[a].0 + level, sums[a].1 + 1.0);
