@@ -2,12 +2,12 @@
 
 pub(crate) mod bounds;
 pub(crate) mod collected;
-pub(crate) mod dimension;
 pub(crate) mod geometry;
 pub(crate) mod motion;
 pub(crate) mod names;
 pub(crate) mod overlap;
 pub(crate) mod shapes;
+pub(crate) mod table_check;
 pub(crate) mod time;
 pub(crate) mod walls;
 pub(crate) mod wave;

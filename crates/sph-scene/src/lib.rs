@@ -72,7 +72,8 @@ pub use scene_text::{
 pub use tables::body::{Body, BodyShape, Filling, Phase, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 pub use tables::motion::{
-    AngularRamp, AngularSine, CourseRows, Levels, Motion, Ramp, Rotation, Sine, Translate,
+    AngularRamp, AngularSine, CourseRows, Levels, Motion, Oscillation, Ramp, Rotation, Sine,
+    Translate,
 };
 pub use tables::numerics::{
     GravityOverTime, GravitySine, Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run,

@@ -1,6 +1,6 @@
 //! Changes of gravity: given over time, and by the acceleration of the frame that the scene is drawn in.
 
-use sph_boundary::{Course, RigidMotion};
+use sph_boundary::RigidMotion;
 use sph_core::{Vect, bounds, parse_quantity};
 use sph_scene::{GravityOverTime, Region, Scene};
 use sph_solver::SolverError;
@@ -76,9 +76,13 @@ pub(crate) fn head<const D: usize>(
 
 fn given_of<const D: usize>(given: &GravityOverTime) -> Result<AddedGravity<D>, SolverError> {
     if let Some(sine) = &given.sine {
-        let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
-        let begin = sine.phase.sin();
-        let first = if sine.ramp > 0.0 { 0.0 } else { begin };
+        let course = sine.oscillation.course(1.0);
+        let begin = sine.oscillation.phase.sin();
+        let first = if sine.oscillation.ramp > 0.0 {
+            0.0
+        } else {
+            begin
+        };
         return Ok(AddedGravity::Sine(vector(&sine.amplitude), course, first));
     }
     let rows = match &given.table {

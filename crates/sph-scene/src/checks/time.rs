@@ -13,7 +13,7 @@ const ROWS: f64 = 1e9;
 pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     let end = scene.run.end;
     let output = &scene.output;
-    if let (Some(_), Some(_)) = (output.every, &output.times) {
+    if output.every.is_some() && output.times.is_some() {
         let message = "outputs are `every` so often or at `times`, not both";
         found.add("output.times", message);
     }
@@ -28,20 +28,19 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
             found.add(path, message);
         }
     }
-    let often = [
+    for (path, every, most) in [
         ("output.every", output.every, OUTPUTS),
         ("output.series_every", output.series_every, ROWS),
         ("run.checkpoint_every", scene.run.checkpoint_every, OUTPUTS),
-    ];
-    for (path, every, most) in often {
+    ] {
         if every.is_some_and(|e| end / e > most) {
             let message = format!("that is more than {most} times in a run of {end} s");
             found.add(path, message);
         }
     }
-    let colours = output.picture_range.iter();
-    let falling = colours.flat_map(|colours| colours.falling("output.picture_range"));
-    found.0.extend(falling);
+    if let Some(colours) = &output.picture_range {
+        (found.0).extend(colours.falling("output.picture_range"));
+    }
     let [low, high] = scene.numerics.density_bounds;
     if !(low < 1.0 && 1.0 < high) {
         let message = format!("the bounds must lie on either side of 1, found {low} and {high}");
@@ -49,11 +48,8 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     }
     for (name, reference) in &scene.reference {
         for (key, pair) in [("window", reference.window), ("exclude", reference.exclude)] {
-            if let Some([low, high]) = pair.filter(|[low, high]| low >= high) {
-                let message =
-                    format!("the first must be less than the second, found {low} and {high}");
-                found.add(format!("reference.{name}.{key}"), message);
-            }
+            let path = format!("reference.{name}.{key}");
+            (found.0).extend(pair.and_then(|pair| scene_text::falling(path, pair)));
         }
         if let Some([start, _]) = reference.window.filter(|w| w[0] > end) {
             let message = format!("it begins at {start} s, after the run's end at {end} s");

@@ -43,7 +43,9 @@ impl Motion {
         }
         for (k, translate) in self.translate.iter().enumerate() {
             let along = array(&unit(&translate.along).unwrap_or_default());
-            let course = translate.given().course(&self.translate_path(place, k))?;
+            let course = translate
+                .given()
+                .course(&format!("{place}.{}", self.translate_key(k)))?;
             translations.push(Translation { along, course });
         }
         let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
@@ -74,60 +76,64 @@ impl Motion {
 
 /// Course of a translation or a rotation, by its keys.
 pub(crate) struct ImposedCourse<'a> {
-    speed: Option<f64>,
-    /// Speed and the time in which it is reached.
-    ramp: Option<[f64; 2]>,
-    /// Amplitude, period, phase, ramp.
-    sine: Option<[f64; 4]>,
+    /// The keys of courses that are given.
+    pub keys: Vec<&'static str>,
+    /// That without rows.
+    course: Option<Course>,
     pub rows: &'a CourseRows,
     unit: &'static str,
 }
 
 impl Translate {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
-        ImposedCourse {
-            speed: self.speed,
-            ramp: self.ramp.map(|r| [r.speed, r.over]),
-            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
-            rows: &self.rows,
-            unit: "m",
-        }
+        let ramp = self.ramp.map(|r| (r.speed, r.over));
+        let sine = self
+            .sine
+            .as_ref()
+            .map(|s| s.oscillation.course(s.amplitude));
+        ImposedCourse::new(self.speed, ramp, sine, &self.rows, "m")
     }
 }
 
 impl Rotation {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
-        ImposedCourse {
-            speed: self.speed,
-            ramp: self.ramp.map(|r| [r.speed, r.over]),
-            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
-            rows: &self.rows,
-            unit: "rad",
-        }
+        let ramp = self.ramp.map(|r| (r.speed, r.over));
+        let sine = self
+            .sine
+            .as_ref()
+            .map(|s| s.oscillation.course(s.amplitude));
+        ImposedCourse::new(self.speed, ramp, sine, &self.rows, "rad")
     }
 }
 
-impl ImposedCourse<'_> {
-    /// The keys of courses that are given.
-    pub fn keys(&self) -> Vec<&'static str> {
-        given([
-            ("speed", self.speed.is_some()),
-            ("ramp", self.ramp.is_some()),
-            ("sine", self.sine.is_some()),
-            ("table", self.rows.table.is_some()),
-            ("file", self.rows.file.is_some()),
-        ])
+impl<'a> ImposedCourse<'a> {
+    fn new(
+        speed: Option<f64>,
+        ramp: Option<(f64, f64)>,
+        sine: Option<Course>,
+        rows: &'a CourseRows,
+        unit: &'static str,
+    ) -> Self {
+        let keys = given([
+            ("speed", speed.is_some()),
+            ("ramp", ramp.is_some()),
+            ("sine", sine.is_some()),
+            ("table", rows.table.is_some()),
+            ("file", rows.file.is_some()),
+        ]);
+        let steady = speed.map(|speed| Course::Steady { speed });
+        let ramp = ramp.map(|(speed, over)| Course::Ramp { speed, over });
+        ImposedCourse {
+            keys,
+            course: steady.or(ramp).or(sine),
+            rows,
+            unit,
+        }
     }
 
     fn course(&self, place: &str) -> Result<Course, SceneProblem> {
-        if let Some(speed) = self.speed {
-            return Ok(Course::Steady { speed });
-        }
-        if let Some([speed, over]) = self.ramp {
-            return Ok(Course::Ramp { speed, over });
-        }
-        if let Some([amplitude, period, phase, ramp]) = self.sine {
-            return Ok(Course::sine(amplitude, period, phase, ramp));
+        if let Some(course) = &self.course {
+            return Ok(course.clone());
         }
         let rows = match &self.rows.table {
             Some(table) => table.as_slice().into(),
@@ -196,7 +202,7 @@ impl Motion {
         let mut translations = self.translate.iter().enumerate();
         let told = |rows: &CourseRows| rows.path.is_some() || rows.table.is_some();
         let (key, given) = match (translations.find(|(_, t)| told(&t.rows)), &self.rotate) {
-            (Some((k, t)), _) => (self.translate_path(place, k), t.given()),
+            (Some((k, t)), _) => (format!("{place}.{}", self.translate_key(k)), t.given()),
             (None, Some(r)) => (format!("{place}.rotate"), r.given()),
             (None, None) => return None,
         };
