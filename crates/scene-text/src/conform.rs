@@ -8,7 +8,7 @@ use toml::Value;
 
 use crate::plausible::{Quantity, Verdict};
 use crate::problem::describe;
-use crate::{MOST_PROBLEMS, SceneProblem, parse_quantity, suggestion};
+use crate::{MOST_PROBLEMS, SceneProblem, comma_list, parse_quantity, suggestion};
 
 /// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside the range
 /// of nature ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
@@ -43,6 +43,11 @@ impl<'s> Walk<'s> {
 
     fn problem(&mut self, path: &str, message: String) {
         self.problems.push(SceneProblem::new(path, message));
+    }
+
+    fn expected(&mut self, path: &str, wanted: &str, value: &Value) {
+        let found = describe(value);
+        self.problem(path, format!("expected {wanted}, found {found}"));
     }
 
     /// True if no further problem is reported.
@@ -81,10 +86,7 @@ impl<'s> Walk<'s> {
             Some("boolean") if value.as_bool().is_none() => {
                 self.problem(path, "expected true or false".into());
             }
-            Some("string") if value.as_str().is_none() => {
-                let found = describe(value);
-                self.problem(path, format!("expected a string, found {found}"));
-            }
+            Some("string") if value.as_str().is_none() => self.expected(path, "a string", value),
             Some("array") => self.array(value, schema, path, unit),
             Some("object") => self.object(value, schema, path),
             _ => {}
@@ -134,8 +136,7 @@ impl<'s> Walk<'s> {
         match wanted.into_iter().collect::<Option<Vec<_>>>() {
             Some(mut all) if all.len() > 1 => {
                 all.dedup();
-                let (wanted, found) = (all.join(" or "), describe(value));
-                self.problem(path, format!("expected {wanted}, found {found}"));
+                self.expected(path, &all.join(" or "), value);
             }
             _ => self.problems.extend(first.unwrap_or_default()),
         }
@@ -146,10 +147,9 @@ impl<'s> Walk<'s> {
         let key = kinds[0].0;
         let mut names: Vec<_> = kinds.iter().map(|(_, name, _)| *name).collect();
         names.sort_unstable();
-        let known = || names.join(", ");
+        let known = names.join(", ");
         let Some(kind) = value.get(key).and_then(Value::as_str) else {
-            let message = format!("the key `{key}` is missing: one of {}", known());
-            return self.problem(path, message);
+            return self.problem(path, format!("the key `{key}` is missing: one of {known}"));
         };
         match kinds.iter().find(|(_, name, _)| *name == kind) {
             Some((_, _, schema)) => self.object(value, schema, path),
@@ -158,7 +158,6 @@ impl<'s> Walk<'s> {
                 // `probe.NAME` is a probe.
                 let what = path.split('.').next().filter(|root| !root.is_empty());
                 let what = what.unwrap_or("table");
-                let known = known();
                 let message =
                     format!("there is no {what} of the {key} `{kind}`{near} (there are: {known})");
                 self.problem(&joined(path, key), message);
@@ -173,8 +172,7 @@ impl<'s> Walk<'s> {
         path: &str,
     ) {
         let names: Vec<&str> = names.collect();
-        let expected: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-        let expected = expected.join(", ");
+        let expected = comma_list(names.iter().map(|n| format!("`{n}`")));
         match value.as_str() {
             Some(text) if names.contains(&text) => {}
             Some(text) => {
@@ -194,10 +192,7 @@ impl<'s> Walk<'s> {
                 Ok(x) => x,
                 Err(why) => return self.problem(path, why),
             },
-            other => {
-                let found = describe(other);
-                return self.problem(path, format!("expected a number{of}, found {found}"));
-            }
+            other => return self.expected(path, &format!("a number{of}"), other),
         };
         if !number.is_finite() {
             let message = format!("expected a finite number{of}, found {number}");
@@ -214,10 +209,7 @@ impl<'s> Walk<'s> {
     fn integer(&mut self, value: &mut Value, schema: &Json, path: &str) {
         match value {
             Value::Integer(i) => self.range(*i as f64, schema, path, None),
-            other => {
-                let found = describe(other);
-                self.problem(path, format!("expected a whole number, found {found}"));
-            }
+            other => self.expected(path, "a whole number", other),
         }
     }
 
@@ -253,8 +245,7 @@ impl<'s> Walk<'s> {
 
     fn array(&mut self, value: &mut Value, schema: &'s Json, path: &str, unit: Option<&'s str>) {
         let Value::Array(items) = value else {
-            let found = describe(value);
-            return self.problem(path, format!("expected a list, found {found}"));
+            return self.expected(path, "a list", value);
         };
         let count = |key: &str| schema.get(key).and_then(Json::as_u64).map(|n| n as usize);
         let (least, most) = (count("minItems"), count("maxItems"));
@@ -280,8 +271,7 @@ impl<'s> Walk<'s> {
 
     fn object(&mut self, value: &mut Value, schema: &'s Json, path: &str) {
         let Value::Table(table) = value else {
-            let found = describe(value);
-            return self.problem(path, format!("expected a table, found {found}"));
+            return self.expected(path, "a table", value);
         };
         let join = |key: &str| joined(path, key);
         let properties = schema.get("properties").and_then(Json::as_object);
@@ -295,8 +285,7 @@ impl<'s> Walk<'s> {
                 (None, Some(Json::Bool(false))) => {
                     let names = || properties.into_iter().flatten().map(|(n, _)| n.as_str());
                     let near = suggestion(key, names());
-                    let known = names().collect::<Vec<_>>().join(", ");
-                    let known = match known.as_str() {
+                    let known = match comma_list(names()).as_str() {
                         "" => "none is taken here".to_string(),
                         list => format!("valid here: {list}"),
                     };

@@ -38,7 +38,7 @@ pub mod surface;
 mod text;
 
 pub use conform::conform;
-pub use diagnostic::{Diagnostic, Origin, line_and_column};
+pub use diagnostic::{Diagnostic, Origin};
 pub use editors::{defaults, for_editors};
 pub use files::named_files;
 pub use names::{comma_list, is_within, nearest, suggestion};
@@ -48,7 +48,7 @@ pub use picture_range::{PictureRange, falling};
 pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
-pub use text::{FILE_BYTES, read_bytes, read_text};
+pub use text::{decoded, read_bytes, read_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

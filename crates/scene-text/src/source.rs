@@ -139,9 +139,7 @@ impl Source {
             false => within(folder, file, &self.allowed),
         }
     }
-}
 
-impl Source {
     /// The table of the text with the overrides applied.
     ///
     /// # Errors
@@ -199,7 +197,7 @@ fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
 const DEEPEST: usize = 80;
 
 /// Place at which a text is nested too deeply: the reader reports it without a place.
-fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
+fn too_deep(text: &str, message: &str) -> Range<usize> {
     if !message.contains("recursion") {
         return 0..0;
     }

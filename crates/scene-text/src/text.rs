@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::diagnostic::line_and_column;
 
 /// Longest scene file, bytes.
-pub const FILE_BYTES: usize = 4 << 20;
+pub(crate) const FILE_BYTES: usize = 4 << 20;
 
 /// True if a path is that of an open file of this process: `/dev/stdin`, or `<(command)` of a shell. Opening another
 /// pipe blocks until a writer opens it.
@@ -32,11 +32,21 @@ pub fn read_text(path: &Path) -> Result<String, String> {
     if bytes.len() > FILE_BYTES {
         return Err(format!("it is longer than {} MiB", FILE_BYTES >> 20));
     }
+    decoded(bytes).map_err(|(at, line, column)| {
+        format!("byte {at}, in line {line}, is not UTF-8 text (column {column})")
+    })
+}
+
+/// The text of some bytes.
+///
+/// # Errors
+/// The number of the first byte that is not UTF-8, and its line and column.
+pub fn decoded(bytes: Vec<u8>) -> Result<String, (usize, usize, usize)> {
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
         let (line, column) = line_and_column(&before, at);
-        format!("byte {at}, in line {line}, is not UTF-8 text (column {column})")
+        (at, line, column)
     })
 }
 

@@ -52,7 +52,6 @@ mod geometry;
 mod reading;
 mod tables;
 
-pub use drawings::drawing::DrawingError;
 pub use filling::disorder::{disturb, noise};
 pub use filling::fill::{BodyParticles, Offset, estimate, fill};
 pub use geometry::course::Courses;

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::surface::facets::bounds;
+use crate::surface::facets::{Facets, bounds};
 use crate::surface::vector::{dot, minus};
-use crate::surface::weld::Facets;
 
 /// Edges that hang together and have a facet on one side only.
 #[derive(Clone, Debug, PartialEq)]

@@ -82,18 +82,17 @@ pub(crate) fn folder_of(file: &Path) -> &Path {
 }
 
 /// The path of a file that a list names; it stays in the folder of the list, links followed.
-pub(crate) fn beside(list: &Path, file: &str) -> Result<PathBuf> {
+pub(crate) fn beside(list: &Path, file: &Path) -> Result<PathBuf> {
     let path = list.with_file_name(file);
     let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
-    let named = Path::new(file).components().all(within);
+    let named = file.components().all(within);
     // A missing file leads nowhere.
     let real = (path.canonicalize(), folder_of(list).canonicalize());
     let leads = matches!(real, (Ok(real), Ok(folder)) if !real.starts_with(&folder));
-    let problem = || format!("it names `{file}`, which is outside its folder");
-    match named && !leads {
-        true => Ok(path),
-        false => Err(IoError::Unfit(list.into(), problem())),
-    }
+    let problem = || format!("it names `{}`, which is outside its folder", file.display());
+    (named && !leads)
+        .then_some(path)
+        .ok_or_else(|| IoError::Unfit(list.into(), problem()))
 }
 
 #[cfg(test)]

@@ -23,7 +23,8 @@ use crate::paraview::xml::escape;
 #[derive(Debug)]
 pub struct PvdSeries {
     path: PathBuf,
-    entries: Vec<Entry>,
+    /// The files seen from the folder of the list.
+    entries: Vec<SeriesEntry>,
 }
 
 /// A file of a series that has been written.
@@ -42,27 +43,13 @@ pub struct SeriesEntry {
 /// # Errors
 /// If it cannot be read, is not one of [`PvdSeries`], or names a file outside its folder.
 pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<SeriesEntry>> {
-    let series = PvdSeries {
-        path: path.as_ref().to_path_buf(),
-        entries: Vec::new(),
-    };
-    let listed = |entry: Entry| {
-        Ok(SeriesEntry {
-            time: entry.time,
-            name: entry.name,
-            path: beside(&series.path, &entry.file)?,
-        })
+    let path = path.as_ref();
+    let listed = |entry: SeriesEntry| {
+        let path = beside(path, &entry.path)?;
+        Ok(SeriesEntry { path, ..entry })
     };
     // A list that is not there is none, not an empty one.
-    series.load(1)?.into_iter().map(listed).collect()
-}
-
-/// One file of the series.
-#[derive(Clone, Debug, PartialEq)]
-struct Entry {
-    time: f64,
-    name: String,
-    file: String,
+    load(path, 1)?.into_iter().map(listed).collect()
 }
 
 impl PvdSeries {
@@ -80,16 +67,12 @@ impl PvdSeries {
     /// which the interrupted run wrote after its last checkpoint, are dropped.
     pub fn open_at(path: impl AsRef<Path>, frames: usize) -> Result<Self> {
         let mut series = Self::create(path)?;
-        let found = series.load(frames)?;
+        let found = load(&series.path, frames)?;
         let times = distinct_times(&found);
         if times.len() < frames {
             let (found, wanted) = (times.len() as u64, frames as u64);
-            return Err(IoError::TooShort(
-                series.path,
-                found,
-                "output times",
-                wanted,
-            ));
+            let path = series.path;
+            return Err(IoError::TooShort(path, found, "output times", wanted));
         }
         let end = frames
             .checked_sub(1)
@@ -101,7 +84,7 @@ impl PvdSeries {
     /// Continues a series after `time` (s); later entries are dropped.
     pub fn open_until(path: impl AsRef<Path>, time: f64) -> Result<Self> {
         let mut series = Self::create(path)?;
-        let found = series.load(0)?;
+        let found = load(&series.path, 0)?;
         series.keep(found, time)?;
         Ok(series)
     }
@@ -151,10 +134,10 @@ impl PvdSeries {
                     write_pvtu(&path, piece, frame.index, ranks)?;
                 }
             }
-            added.push(Entry {
+            added.push(SeriesEntry {
                 time: frame.time,
                 name,
-                file: format!("{prefix}/{file}"),
+                path: format!("{prefix}/{file}").into(),
             });
             written.push(path);
         }
@@ -187,7 +170,7 @@ impl PvdSeries {
     }
 
     /// Takes over the entries up to `end`, and lists only that.
-    fn keep(&mut self, mut found: Vec<Entry>, end: f64) -> Result<()> {
+    fn keep(&mut self, mut found: Vec<SeriesEntry>, end: f64) -> Result<()> {
         let before = found.len();
         found.retain(|e| e.time <= end);
         self.entries = found;
@@ -210,7 +193,8 @@ impl PvdSeries {
             if known.is_none() {
                 names.push(&e.name);
             }
-            let (time, name, file) = (e.time, escape(&e.name), escape(&e.file));
+            let file = e.path.to_string_lossy();
+            let (time, name, file) = (e.time, escape(&e.name), escape(&file));
             xml.push_str(&format!(
                 "    <DataSet timestep=\"{time:?}\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>\n"
             ));
@@ -218,24 +202,24 @@ impl PvdSeries {
         xml.push_str("  </Collection>\n</VTKFile>\n");
         write_whole(&self.path, xml)
     }
+}
 
-    /// The entries on disk; no file is as good as an empty one if none are wanted.
-    fn load(&self, wanted: usize) -> Result<Vec<Entry>> {
-        let text = match fs::read_to_string(&self.path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
-            Err(e) => return Err(IoError::read(&self.path, e)),
-        };
-        parse(&text).map_err(|problem| IoError::Malformed(self.path.clone(), problem))
-    }
+/// The entries on disk; no file is as good as an empty one if none are wanted.
+fn load(path: &Path, wanted: usize) -> Result<Vec<SeriesEntry>> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
+        Err(e) => return Err(IoError::read(path, e)),
+    };
+    parse(&text).map_err(|problem| IoError::Malformed(path.into(), problem))
 }
 
 /// The entries of a list as this module writes it.
-fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
+fn parse(text: &str) -> std::result::Result<Vec<SeriesEntry>, String> {
     let whole = Document::parse(text).ok();
     let whole = whole.filter(|d| d.root_element().attribute("type") == Some("Collection"));
     let whole = whole.ok_or("it is not a whole VTK collection")?;
-    let mut entries: Vec<Entry> = Vec::new();
+    let mut entries: Vec<SeriesEntry> = Vec::new();
     let listed = whole.descendants().filter(|n| n.has_tag_name("DataSet"));
     for (i, node) in listed.enumerate() {
         let entry = entry(node).ok_or_else(|| format!("entry {} cannot be read", i + 1))?;
@@ -247,16 +231,16 @@ fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-fn entry(node: Node<'_, '_>) -> Option<Entry> {
+fn entry(node: Node<'_, '_>) -> Option<SeriesEntry> {
     let time = node.attribute("timestep")?.parse().ok();
-    Some(Entry {
+    Some(SeriesEntry {
         time: time.filter(|t: &f64| t.is_finite())?,
         name: node.attribute("name")?.into(),
-        file: node.attribute("file")?.into(),
+        path: node.attribute("file")?.into(),
     })
 }
 
-fn distinct_times(entries: &[Entry]) -> Vec<f64> {
+fn distinct_times(entries: &[SeriesEntry]) -> Vec<f64> {
     let mut times: Vec<f64> = entries.iter().map(|e| e.time).collect();
     times.dedup();
     times

@@ -94,7 +94,7 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     for piece in document.descendants().filter(|n| n.has_tag_name("Piece")) {
         let source = piece.attribute("Source");
         let source = source.ok_or_else(|| unfit("a piece has no file"))?;
-        let (mut share, time) = read_vtu(beside(path, source)?)?;
+        let (mut share, time) = read_vtu(beside(path, source.as_ref())?)?;
         whole = Some(match whole {
             None => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy();

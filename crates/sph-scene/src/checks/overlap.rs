@@ -24,10 +24,8 @@ pub(crate) fn check<const D: usize>(scene: &Scene, found: &mut Problems) {
     let (names, regions): (Vec<&String>, Vec<Region<D>>) = whole
         .filter_map(|(name, body)| Some((name, Region::from_body(body)?)))
         .unzip();
-    let placed = regions.iter();
-    let placed: Vec<_> = placed
-        .map(|r| PeriodicRegion::new(r, spacing, &periods))
-        .collect();
+    let placed = (regions.iter()).map(|r| PeriodicRegion::new(r, spacing, &periods));
+    let placed: Vec<_> = placed.collect();
     let mut work = WORK;
     for (i, first) in placed.iter().enumerate() {
         for (j, second) in placed.iter().enumerate().skip(i + 1) {

@@ -3,7 +3,7 @@
 use scene_text::Problems;
 
 use crate::Polygon;
-use crate::geometry::polygon::crossing;
+use crate::geometry::polygon::{Edge, crossing};
 use crate::geometry::vector::{array, point};
 
 /// A table that is checked, by its path, the empty one for the whole scene, and the problems found so far.
@@ -121,7 +121,7 @@ impl TableCheck<'_> {
     }
 
     /// True if an edge meets another.
-    pub fn crossed(&mut self, key: &str, edges: &[([f64; 2], [f64; 2])], closed: bool) -> bool {
+    pub fn crossed(&mut self, key: &str, edges: &[Edge], closed: bool) -> bool {
         let Some((first, second, place)) = crossing(edges, closed) else {
             return false;
         };

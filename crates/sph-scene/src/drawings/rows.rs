@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use scene_text::{line_and_column, read_bytes};
+use scene_text::{decoded, read_bytes};
 
 use crate::Line;
 use crate::drawings::heading::{ColumnChoice, Form, joined};
@@ -24,10 +24,7 @@ pub(crate) struct Row {
 
 /// The text of a file of UTF-8 that is neither empty nor too long.
 pub(crate) fn text(path: &Path) -> Result<String, String> {
-    String::from_utf8(read_bytes(path, BYTES)?).map_err(|e| {
-        let at = e.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&e.as_bytes()[..at]);
-        let (line, column) = line_and_column(&before, at);
+    decoded(read_bytes(path, BYTES)?).map_err(|(_, line, column)| {
         let name = path.display();
         format!("`{name}`, line {line}: this is no UTF-8 text (column {column})")
     })

@@ -1,12 +1,9 @@
 //! Lines from SVG drawings.
 
-use std::path::Path;
-
 use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Point, RoundedRect, Shape};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{Length, LengthUnit, PointsParser, Transform, ViewBox};
 
-use crate::drawings::rows::text;
 use crate::drawings::svg_path;
 use crate::geometry::outlines::Line;
 
@@ -19,15 +16,10 @@ const LARGEST: f64 = 1e9;
 /// Shares of the tolerance that arcs lose to cubics and cubics to straight edges.
 const SHARES: [f64; 2] = [0.1, 0.8];
 
-/// Lines of a drawing, upright, in user units; curves within `tolerance` user units.
+/// Lines of the text of a drawing called `name`, upright, in user units; curves within `tolerance` user units.
 ///
 /// The origin is the lower left corner of the `viewBox`, else of the width and height, else the
 /// upper left corner.
-pub(crate) fn read(path: &Path, tolerance: f64) -> Result<Vec<Line>, String> {
-    parse(&text(path)?, &path.display().to_string(), tolerance)
-}
-
-/// The same from the text of a file called `name`.
 pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>, String> {
     let told = |why: String| format!("`{name}`: {why}");
     let options = ParsingOptions {
@@ -171,10 +163,9 @@ fn drawn(node: &Node<'_, '_>, tolerance: f64) -> Result<Option<BezPath>, String>
             Some(path)
         }
         "line" => {
-            let mut path = BezPath::new();
-            path.move_to((number("x1")?, number("y1")?));
-            path.line_to((number("x2")?, number("y2")?));
-            Some(path)
+            let from = (number("x1")?, number("y1")?);
+            let to = (number("x2")?, number("y2")?);
+            Some(kurbo::Line::new(from, to).to_path(tolerance))
         }
         "rect" => {
             let corner = [number("x")?, number("y")?];
@@ -231,9 +222,7 @@ impl Lines {
         let mut end = |line: &mut Vec<[f64; 2]>, closed: bool| {
             let points = std::mem::take(line);
             let tidy = Line { points, closed }.tidied(near);
-            if tidy.points.len() > 1 {
-                found.push(tidy);
-            }
+            found.extend((tidy.points.len() > 1).then_some(tidy));
         };
         let at = |p: Point| [p.x, p.y];
         let mut pen = Point::ZERO;
@@ -259,9 +248,6 @@ impl Lines {
         }
         end(&mut line, false);
         let why = format!("the drawing has more than {CORNERS} corners at this spacing");
-        match self.corners > CORNERS {
-            true => Err(why),
-            false => Ok(()),
-        }
+        (self.corners <= CORNERS).then_some(()).ok_or(why)
     }
 }

@@ -31,10 +31,10 @@ pub fn fill<const D: usize>(
     offset: Offset,
     periodic: &[Option<[f64; 2]>; D],
 ) -> Vec<BodyParticles<D>> {
-    let placed = bodies.iter();
-    let placed: Vec<_> = placed
-        .map(|b| PeriodicRegion::new(b, spacing, periodic))
-        .collect();
+    let placed = bodies
+        .iter()
+        .map(|b| PeriodicRegion::new(b, spacing, periodic));
+    let placed: Vec<_> = placed.collect();
     let half = 0.5 * spacing * (1.0 - ROUNDING);
     let (firm, reach) = match offset {
         Offset::None => (half, half),
@@ -121,13 +121,14 @@ impl<const D: usize> Nodes<D> {
         let spans = placed.spans();
         let shift = offset.shift();
         let length = |k: usize| (hi[k] - lo[k]) / spacing;
+        let whole = |k: usize| length(k).round().max(1.0);
         let counts = |k: usize| match (spans[k], offset) {
-            (true, _) => length(k).round().max(1.0) as usize,
+            (true, _) => whole(k) as usize,
             (false, Offset::None) => (length(k) + ROUNDING).floor() as usize + 1,
             (false, Offset::Half) => (length(k) + 0.5).ceil() as usize,
         };
         let step = |k: usize| match spans[k] {
-            true => (hi[k] - lo[k]) / length(k).round().max(1.0),
+            true => (hi[k] - lo[k]) / whole(k),
             false => spacing,
         };
         let step: [f64; D] = std::array::from_fn(step);
@@ -140,23 +141,14 @@ impl<const D: usize> Nodes<D> {
 
     /// Every node, the first axis running slowest.
     pub fn iter(&self) -> impl Iterator<Item = [f64; D]> + '_ {
-        let mut index = [0usize; D];
-        let mut done = self.counts.contains(&0);
-        std::iter::from_fn(move || {
-            if done {
-                return None;
-            }
-            let node = std::array::from_fn(|k| self.origin[k] + index[k] as f64 * self.step[k]);
-            done = true;
+        (0..self.counts.iter().product()).map(|number| {
+            let mut rest: usize = number;
+            let mut node = self.origin;
             for k in (0..D).rev() {
-                index[k] += 1;
-                if index[k] < self.counts[k] {
-                    done = false;
-                    break;
-                }
-                index[k] = 0;
+                node[k] += (rest % self.counts[k]) as f64 * self.step[k];
+                rest /= self.counts[k];
             }
-            Some(node)
+            node
         })
     }
 }

@@ -65,15 +65,6 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
     begins.map(line).collect()
 }
 
-/// Errors of turning closed lines.
-#[derive(Debug, PartialEq)]
-pub(crate) enum SideError {
-    /// The line of a number is open.
-    Open(usize),
-    /// Too many edges lie beside too many lines.
-    Tangled,
-}
-
 /// Most edges, of all lines together, that are passed on the way out from a corner of each.
 const PASSED: usize = 200_000_000;
 
@@ -81,20 +72,25 @@ const PASSED: usize = 200_000_000;
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.
-pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, SideError> {
+///
+/// # Errors
+/// Why they cannot be turned, and whether that is the number of edges.
+pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, (bool, String)> {
     if side == FluidSide::AsDrawn {
         return Ok(lines);
     }
     if let Some(open) = lines.iter().position(|l| !l.closed) {
-        return Err(SideError::Open(open));
+        let message = format!(
+            "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
+             it, or leave out `fluid` and draw it with the fluid on the left of travel"
+        );
+        return Err((false, message));
     }
     let polygons = lines.iter().map(|l| Polygon::new(l.points.clone()));
     let polygons: Vec<Polygon> = polygons.collect();
-    let of = |(k, polygon): (usize, &Polygon)| {
-        let edges = polygon.edges().map(|(a, b)| (k, a, b));
-        edges.collect::<Vec<_>>()
-    };
-    let edges: Vec<_> = polygons.iter().enumerate().flat_map(of).collect();
+    let numbered = polygons.iter().enumerate();
+    let edges = numbered.flat_map(|(k, polygon)| polygon.edges().map(move |(a, b)| (k, a, b)));
+    let edges: Vec<_> = edges.collect();
     let boxes = edges.iter().map(|(_, a, b)| bounds([*a, *b])).collect();
     let tree = BoxTree::new(boxes);
     let mut passed = 0;
@@ -113,7 +109,9 @@ pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, S
             }
         });
         if whole.is_break() {
-            return Err(SideError::Tangled);
+            let message = "its lines have too many edges beside each other to find which is within which: leave \
+                           out `fluid` and draw them with the fluid on the left of travel";
+            return Err((true, message.to_string()));
         }
         let anticlockwise = polygons[k].area() > 0.0;
         let wanted = (side == FluidSide::Inside) == within.is_multiple_of(2);

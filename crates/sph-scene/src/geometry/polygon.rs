@@ -48,7 +48,7 @@ impl Polygon {
 
     /// Distance of a point from the nearest edge for which `counts` holds, m.
     pub fn distance(&self, x: [f64; 2], counts: impl Fn([f64; 2], [f64; 2]) -> bool) -> f64 {
-        let to = |(a, b): ([f64; 2], [f64; 2])| {
+        let to = |(a, b): Edge| {
             let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
             let (px, py) = (x[0] - a[0], x[1] - a[1]);
             let length = ex * ex + ey * ey;
@@ -60,11 +60,6 @@ impl Polygon {
         };
         let edges = self.edges().filter(|(a, b)| counts(*a, *b));
         edges.map(to).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Two edges that cross or touch without being neighbours, by number, and a place.
-    pub fn crossing(&self) -> Option<(usize, usize, [f64; 2])> {
-        crossing(&self.edges().collect::<Vec<_>>(), true)
     }
 }
 
@@ -80,18 +75,18 @@ const PAIRS: usize = 200_000_000;
 ///
 /// Only segments whose boxes overlap are held against each other, so that a chain of n segments that is not a
 /// tangle costs about n log n. A tangle of more than [`PAIRS`] is not searched to its end.
-pub(crate) fn crossing(
-    edges: &[([f64; 2], [f64; 2])],
-    closed: bool,
-) -> Option<(usize, usize, [f64; 2])> {
+pub(crate) fn crossing(edges: &[Edge], closed: bool) -> Option<SegmentCrossing> {
     searched(edges, closed).0
 }
+
+/// Two ends.
+pub(crate) type Edge = ([f64; 2], [f64; 2]);
 
 /// Two segments, by number, and the place where they meet.
 type SegmentCrossing = (usize, usize, [f64; 2]);
 
 /// The same with the number of pairs that were held against each other.
-fn searched(edges: &[([f64; 2], [f64; 2])], closed: bool) -> (Option<SegmentCrossing>, usize) {
+fn searched(edges: &[Edge], closed: bool) -> (Option<SegmentCrossing>, usize) {
     let n = edges.len();
     let tree = BoxTree::new(edges.iter().map(|(a, b)| bounds([*a, *b])).collect());
     let mut pairs = 0;
@@ -129,11 +124,7 @@ pub(crate) fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Neighbouring segments may share their corner but must not run back over each other.
-fn folded(
-    first: ([f64; 2], [f64; 2]),
-    second: ([f64; 2], [f64; 2]),
-    in_order: bool,
-) -> Option<[f64; 2]> {
+fn folded(first: Edge, second: Edge, in_order: bool) -> Option<[f64; 2]> {
     let (corner, a, b) = match in_order {
         true => (first.1, first.0, second.1),
         false => (first.0, first.1, second.0),
@@ -142,7 +133,7 @@ fn folded(
     (cross(corner, a, b) == 0.0 && along > 0.0).then_some(corner)
 }
 
-fn meet(p: ([f64; 2], [f64; 2]), q: ([f64; 2], [f64; 2])) -> Option<[f64; 2]> {
+fn meet(p: Edge, q: Edge) -> Option<[f64; 2]> {
     let (d1, d2) = (cross(q.0, q.1, p.0), cross(q.0, q.1, p.1));
     let (d3, d4) = (cross(p.0, p.1, q.0), cross(p.0, p.1, q.1));
     if ((d1 > 0.0 && d2 < 0.0) || (d1 < 0.0 && d2 > 0.0))
@@ -154,7 +145,7 @@ fn meet(p: ([f64; 2], [f64; 2]), q: ([f64; 2], [f64; 2])) -> Option<[f64; 2]> {
             p.0[1] + t * (p.1[1] - p.0[1]),
         ]);
     }
-    let on = |s: ([f64; 2], [f64; 2]), x: [f64; 2]| {
+    let on = |s: Edge, x: [f64; 2]| {
         (0..2).all(|k| s.0[k].min(s.1[k]) <= x[k] && x[k] <= s.0[k].max(s.1[k]))
     };
     let touching = [(d1, q, p.0), (d2, q, p.1), (d3, p, q.0), (d4, p, q.1)];
@@ -170,6 +161,10 @@ mod tests {
         Polygon::new(vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     }
 
+    fn crossed(points: Vec<[f64; 2]>) -> Option<SegmentCrossing> {
+        crossing(&Polygon::new(points).edges().collect::<Vec<_>>(), true)
+    }
+
     #[test]
     fn a_square_has_its_area_and_distances() {
         let all = |_: [f64; 2], _: [f64; 2]| true;
@@ -178,24 +173,22 @@ mod tests {
         assert!(!square().contains([3.0, 0.5]));
         assert_eq!(square().distance([1.0, 0.5], all), 0.5);
         assert_eq!(square().distance([5.0, 6.0], all), 5.0);
-        assert_eq!(square().crossing(), None);
+        assert_eq!(crossed(square().points), None);
     }
 
     #[test]
     fn a_bow_tie_crosses_itself_in_the_middle() {
-        let bow = Polygon::new(vec![[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
-        assert_eq!(bow.crossing(), Some((0, 2, [1.0, 1.0])));
+        let bow = vec![[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+        assert_eq!(crossed(bow), Some((0, 2, [1.0, 1.0])));
     }
 
     #[test]
     fn a_corner_on_another_edge_and_a_fold_are_found() {
-        let inwards = [[2.0, 0.0], [0.0, 4.0]];
-        let touch = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
-            .into_iter()
-            .chain(inwards);
-        assert!(Polygon::new(touch.collect()).crossing().is_some());
-        let fold = Polygon::new(vec![[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 2.0]]);
-        assert!(fold.crossing().is_some());
+        let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]];
+        let touch = [&corners[..], &[[2.0, 0.0], [0.0, 4.0]]].concat();
+        assert!(crossed(touch).is_some());
+        let fold = vec![[0.0, 0.0], [4.0, 0.0], [2.0, 0.0], [2.0, 2.0]];
+        assert!(crossed(fold).is_some());
     }
 
     #[test]

@@ -63,22 +63,28 @@ fn ring_about(axis: &[f64; 3], flat: &[[f64; 2]]) -> Vec<[f64; 3]> {
     flat.iter().map(shift).collect()
 }
 
-fn plus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] + b[k])
+fn shifted(x: &[f64; 3], shifts: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let shift = |s: &[f64; 3]| std::array::from_fn(|k| x[k] + s[k]);
+    shifts.iter().map(shift).collect()
+}
+
+/// The numbers of the corners of a ring, each with the next.
+fn sides(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..count).map(move |k| (k, (k + 1) % count))
 }
 
 /// A prism over a ring between two points.
 pub(crate) fn cylinder(from: [f64; 3], to: [f64; 3], flat: &[[f64; 2]], open_ends: bool) -> Facets {
     let shifts = ring_about(&minus(&to, &from), flat);
-    let bottom: Vec<_> = shifts.iter().map(|s| plus(&from, s)).collect();
-    let top: Vec<_> = shifts.iter().map(|s| plus(&to, s)).collect();
+    let [mut bottom, top] = [from, to].map(|end| shifted(&end, &shifts));
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         surface.fan(&[bottom[k], bottom[next], top[next], top[k]]);
     }
     if !open_ends {
         surface.fan(&top);
-        surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+        bottom.reverse();
+        surface.fan(&bottom);
     }
     surface.finish()
 }
@@ -86,12 +92,13 @@ pub(crate) fn cylinder(from: [f64; 3], to: [f64; 3], flat: &[[f64; 2]], open_end
 /// A cone over a ring.
 pub(crate) fn cone(base: [f64; 3], apex: [f64; 3], flat: &[[f64; 2]]) -> Facets {
     let shifts = ring_about(&minus(&apex, &base), flat);
-    let bottom: Vec<_> = shifts.iter().map(|s| plus(&base, s)).collect();
+    let mut bottom = shifted(&base, &shifts);
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         surface.triangle([bottom[k], bottom[next], apex]);
     }
-    surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+    bottom.reverse();
+    surface.fan(&bottom);
     surface.finish()
 }
 
@@ -118,7 +125,7 @@ pub(crate) fn extrusion(
     };
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         let (a, b) = (&flat[k], &flat[next]);
         surface.fan(&[place(a, low), place(b, low), place(b, high), place(a, high)]);
     }

@@ -6,7 +6,7 @@ use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 use crate::drawings::format::lines;
 use crate::drawings::heading::Form;
 use crate::geometry::divide::{self, sides_of};
-use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
+use crate::geometry::outlines::{Line, oriented, rectangle};
 use crate::geometry::solid;
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
@@ -51,34 +51,22 @@ impl Wall {
             _ => FluidSide::AsDrawn,
         };
         let turned = self.flip || open_box && self.side() == Some(FluidSide::Outside);
-        let lines = oriented(drawn, side).map_err(|why| match why {
-            SideError::Open(open) => {
-                let message = format!(
-                    "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
-                     it, or leave out `fluid` and draw it with the fluid on the left of travel"
-                );
-                SceneProblem::new(format!("{place}.fluid"), message)
-            }
-            SideError::Tangled => problem(
-                "its lines have too many edges beside each other to find which is within which: leave \
-                 out `fluid` and draw them with the fluid on the left of travel"
-                    .to_string(),
-            ),
+        let lines = oriented(drawn, side).map_err(|(tangled, why)| match tangled {
+            true => problem(why),
+            false => SceneProblem::new(format!("{place}.fluid"), why),
         })?;
         let placing = Placing::new(self, factor);
         let placed = lines.into_iter().map(|line| {
-            let line = if turned { line.reversed() } else { line };
-            Line {
-                points: line.points.iter().map(|x| placing.flat(x)).collect(),
-                closed: line.closed,
-            }
+            let mut line = if turned { line.reversed() } else { line };
+            (line.points.iter_mut()).for_each(|x| *x = placing.flat(x));
+            line
         });
         let lines: Vec<Line> = placed.collect();
         if self.polyline.is_none() {
             let length = lines.iter().map(length).sum::<f64>();
-            let corners = lines.iter().flat_map(|l| l.points.iter().copied());
-            self.fits(&bounds(corners), length / spacing, spacing)
-                .map_err(problem)?;
+            let corners = bounds(lines.iter().flat_map(|l| l.points.iter().copied()));
+            let fits = self.fits(&corners, length / spacing, spacing);
+            fits.map_err(problem)?;
         }
         Ok(lines)
     }
@@ -120,9 +108,8 @@ impl Wall {
         let placing = Placing::new(self, factor);
         facets.points.iter_mut().for_each(|x| *x = placing.apply(x));
         let elements = facets.area() / (spacing * spacing);
-        self.fits(&bounds(facets.points.iter().copied()), elements, spacing)
-            .map_err(problem)?;
-        Ok(facets)
+        let fits = self.fits(&facets.bounds(), elements, spacing);
+        fits.map(|()| facets).map_err(problem)
     }
 
     /// Number of corners or facets of the wall's shape, where it is not in the length of the scene itself; none of a
@@ -202,11 +189,13 @@ impl Wall {
             let up = wedge.up.unwrap_or(Face::ZPlus);
             let across = 3 - wedge.rise.axis() - up.axis();
             let axis = [Axis::X, Axis::Y, Axis::Z][across];
-            let (ends, plane) = (
-                [wedge.lo[across], wedge.hi[across]],
-                wedge.plane(Face::ZPlus),
-            );
-            return Some(solid::extrusion(&plane, axis, ends, false));
+            let ends = [wedge.lo[across], wedge.hi[across]];
+            return Some(solid::extrusion(
+                &wedge.plane(Face::ZPlus),
+                axis,
+                ends,
+                false,
+            ));
         }
         let whole = self.extrusion.as_ref()?;
         let e = &whole.shape;
@@ -269,9 +258,12 @@ impl Wedge {
 }
 
 fn length(line: &Line) -> f64 {
-    let closing = if line.closed { line.points.len() } else { 0 };
-    let pairs = line.points.windows(2).map(|p| (p[0], p[1]));
-    let ends = (closing > 1).then(|| (line.points[closing - 1], line.points[0]));
-    let pairs = pairs.chain(ends);
-    pairs.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+    let closing = if line.closed {
+        line.points.first()
+    } else {
+        None
+    };
+    let ends = line.points.iter().skip(1).chain(closing);
+    let edges = line.points.iter().zip(ends);
+    edges.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
 }

@@ -10,44 +10,47 @@ pub(crate) fn convert(scene: &mut Table) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     let walls = scene.get_mut("wall").and_then(Value::as_table_mut);
     for (name, wall) in walls.into_iter().flatten() {
-        if let Some(motion) = wall.get_mut("motion") {
-            courses(motion, &format!("wall.{name}.motion"), &mut found);
-        }
+        courses(
+            wall.get_mut("motion"),
+            &format!("wall.{name}.motion"),
+            &mut found,
+        );
     }
-    let Some(numerics) = scene.get_mut("numerics") else {
-        return found;
-    };
-    if let Some(frame) = numerics.get_mut("frame") {
-        courses(frame, "numerics.frame", &mut found);
-    }
-    if let Some(course_of) = numerics.get_mut("gravity_over_time") {
-        course(course_of, "m/s²", "numerics.gravity_over_time", &mut found);
+    if let Some(numerics) = scene.get_mut("numerics") {
+        courses(numerics.get_mut("frame"), "numerics.frame", &mut found);
+        let place = "numerics.gravity_over_time";
+        course(
+            numerics.get_mut("gravity_over_time"),
+            "m/s²",
+            place,
+            &mut found,
+        );
     }
     found
 }
 
-fn courses(motion: &mut Value, place: &str, found: &mut Vec<SceneProblem>) {
+fn courses(motion: Option<&mut Value>, place: &str, found: &mut Vec<SceneProblem>) {
+    let Some(motion) = motion else { return };
+    course(
+        motion.get_mut("rotate"),
+        "rad",
+        &format!("{place}.rotate"),
+        found,
+    );
+    let place = format!("{place}.translate");
     match motion.get_mut("translate") {
-        Some(Value::Array(several)) => {
-            let single = several.len() == 1;
-            for (k, one) in several.iter_mut().enumerate() {
-                let number = match single {
-                    true => String::new(),
-                    false => format!("[{k}]"),
-                };
-                course(one, "m", &format!("{place}.translate{number}"), found);
+        Some(Value::Array(all)) if all.len() != 1 => {
+            for (k, one) in all.iter_mut().enumerate() {
+                course(Some(one), "m", &format!("{place}[{k}]"), found);
             }
         }
-        Some(one) => course(one, "m", &format!("{place}.translate"), found),
-        None => {}
-    }
-    if let Some(rotate) = motion.get_mut("rotate") {
-        course(rotate, "rad", &format!("{place}.rotate"), found);
+        Some(Value::Array(single)) => course(single.first_mut(), "m", &place, found),
+        one => course(one, "m", &place, found),
     }
 }
 
-fn course(table: &mut Value, unit: &str, place: &str, found: &mut Vec<SceneProblem>) {
-    let rows = table.get_mut("table").and_then(Value::as_array_mut);
+fn course(table: Option<&mut Value>, unit: &str, place: &str, found: &mut Vec<SceneProblem>) {
+    let rows = table.and_then(|table| table.get_mut("table")?.as_array_mut());
     for (k, row) in rows.into_iter().flatten().enumerate() {
         let units = std::iter::once("s").chain(std::iter::repeat(unit));
         let cells = row.as_array_mut().into_iter().flatten().zip(units);

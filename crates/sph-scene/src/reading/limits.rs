@@ -46,10 +46,8 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
 fn table(all: &Table, path: &str, keys: &[&str], found: &mut Vec<SceneProblem>) {
     let n = all.len();
     if n > TABLES {
-        let what = match all.values().all(Value::is_table) {
-            true => "tables",
-            false => "keys",
-        };
+        let tables = all.values().all(Value::is_table);
+        let what = if tables { "tables" } else { "keys" };
         let message = format!("{n} {what} are more than {TABLES}");
         return found.push(SceneProblem::new(path, message));
     }
@@ -58,18 +56,17 @@ fn table(all: &Table, path: &str, keys: &[&str], found: &mut Vec<SceneProblem>) 
             return;
         }
         let dot = if path.is_empty() { "" } else { "." };
+        let path = format!("{path}{dot}{key}");
         let keys = [keys, &[key]].concat();
         if let Some(items) = value.as_array()
             && let Some((_, most)) = LISTS.iter().find(|(wanted, _)| fits(wanted, &keys))
             && items.len() > *most
         {
             let message = format!("{} entries are more than {most}", items.len());
-            found.push(SceneProblem::new(format!("{path}{dot}{key}"), message));
+            found.push(SceneProblem::new(path, message));
             continue;
         }
-        if matches!(value, Value::Table(_) | Value::Array(_)) {
-            nested(value, &format!("{path}{dot}{key}"), &keys, found);
-        }
+        nested(value, &path, &keys, found);
     }
 }
 

@@ -35,6 +35,17 @@ impl Loaded {
             _ => Table::new(),
         }
     }
+
+    /// Every file that the scene names, in the order of its keys.
+    pub fn files(&self) -> Vec<DataFile> {
+        let placed = |(key, named): (String, String)| DataFile {
+            path: self.source.resolve(&key, &named),
+            key,
+            named,
+        };
+        let files = named_files(&self.resolved()).into_iter();
+        files.map(placed).collect()
+    }
 }
 
 /// A scene that is not valid.
@@ -193,19 +204,4 @@ pub struct DataFile {
     pub named: String,
     /// Path of the file, if the scene may name it.
     pub path: Result<PathBuf, PathProblem>,
-}
-
-impl Loaded {
-    /// Every file that the scene names, in the order of its keys.
-    pub fn files(&self) -> Vec<DataFile> {
-        let placed = |(key, named): (String, String)| DataFile {
-            path: self.source.resolve(&key, &named),
-            key,
-            named,
-        };
-        named_files(&self.resolved())
-            .into_iter()
-            .map(placed)
-            .collect()
-    }
 }

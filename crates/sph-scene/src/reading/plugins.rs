@@ -7,16 +7,21 @@ use serde::Deserialize;
 use sph_core::{Place, PluginChoice, PluginKind, kinds};
 use toml::{Table, Value};
 
+/// The keys that lead to the tables of plugins of a kind, `*` for any; none where scenes name them otherwise.
+fn keys(kind: &PluginKind) -> Vec<&'static str> {
+    match kind.place {
+        Place::One | Place::Any => vec![kind.name],
+        Place::InPhase => vec!["phase", "*", kind.name],
+        Place::InWall => vec!["wall", "*", kind.name],
+        Place::Solution => vec!["body", "*", "initial"],
+        Place::Probe | Place::Elsewhere => Vec::new(),
+    }
+}
+
 /// Tables that hold exactly one plugin, as the keys that lead to them.
 fn single_tables() -> Vec<Vec<&'static str>> {
-    let path = |kind: &'static PluginKind| match kind.place {
-        Place::One => Some(vec![kind.name]),
-        Place::InPhase => Some(vec!["phase", "*", kind.name]),
-        Place::InWall => Some(vec!["wall", "*", kind.name]),
-        Place::Solution => Some(vec!["body", "*", "initial"]),
-        Place::Any | Place::Probe | Place::Elsewhere => None,
-    };
-    kinds().into_iter().filter_map(path).collect()
+    let single = kinds().into_iter().filter(|kind| kind.place != Place::Any);
+    single.map(keys).filter(|keys| !keys.is_empty()).collect()
 }
 
 inventory::submit! {
@@ -42,22 +47,19 @@ pub(crate) struct Probe {
 
 /// The tables of a scene that hold plugins of a kind, with their paths; probes and references hold theirs otherwise.
 pub(crate) fn holders<'t>(kind: &PluginKind, scene: &'t Table) -> Vec<(String, &'t Value)> {
-    let nested = |root: &str, key: &str| {
-        let named = scene.get(root).and_then(Value::as_table);
-        let held = |(name, keys): (&String, &'t Value)| {
-            Some((format!("{root}.{name}.{key}"), keys.get(key)?))
-        };
-        named.into_iter().flatten().filter_map(held).collect()
-    };
-    match kind.place {
-        Place::One | Place::Any => {
-            let own = scene.get(kind.name).into_iter();
-            own.map(|held| (kind.name.to_string(), held)).collect()
+    match keys(kind)[..] {
+        [own] => {
+            let held = scene.get(own).into_iter();
+            held.map(|held| (own.to_string(), held)).collect()
         }
-        Place::InPhase => nested("phase", kind.name),
-        Place::InWall => nested("wall", kind.name),
-        Place::Solution => nested("body", "initial"),
-        Place::Probe | Place::Elsewhere => Vec::new(),
+        [root, _, key] => {
+            let named = scene.get(root).and_then(Value::as_table);
+            let held = |(name, keys): (&String, &'t Value)| {
+                Some((format!("{root}.{name}.{key}"), keys.get(key)?))
+            };
+            named.into_iter().flatten().filter_map(held).collect()
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -113,12 +115,9 @@ pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
     let all = scene.get("reference").and_then(Value::as_table);
     let choice = |(reference, given): (&String, &Value)| {
         let parameters = given.get("parameters").and_then(Value::as_table);
+        let parameters = parameters.cloned().unwrap_or_default();
         let name = given.get("solution")?.as_str()?.to_string();
-        Some(solution(
-            reference,
-            name,
-            parameters.cloned().unwrap_or_default(),
-        ))
+        Some(solution(reference, name, parameters))
     };
     all.into_iter().flatten().filter_map(choice).collect()
 }
