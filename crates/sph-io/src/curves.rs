@@ -29,7 +29,6 @@ pub use snapshot::{Column, Snapshot};
 pub use streamline::{draw_streamlines, streamlines};
 pub use track::{Track, draw_tracks, evenly, nearest, tracks};
 
-/// Result of drawings.
 type Result<T> = std::result::Result<T, DrawError>;
 
 /// Errors of drawings.
@@ -53,10 +52,6 @@ fn write_beside<'c>(
     columns: impl IntoIterator<Item = (&'c str, &'c str)>,
     rows: impl Iterator<Item = Vec<f64>>,
 ) -> Result<()> {
-    let rows: Vec<Vec<f64>> = rows.collect();
-    Ok(crate::write_table(
-        picture.with_extension("csv"),
-        columns,
-        &rows,
-    )?)
+    let (table, rows) = (picture.with_extension("csv"), rows.collect::<Vec<_>>());
+    Ok(crate::write_table(table, columns, &rows)?)
 }

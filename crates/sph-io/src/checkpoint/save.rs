@@ -16,15 +16,12 @@ impl Checkpoint {
         let path = path.as_ref();
         let shapes = self.shapes().map_err(|p| IoError::input(path, p))?;
         let data: u64 = shapes.iter().filter_map(Shape::bytes).sum();
-        let header = Header {
-            meta: &self.meta,
-            columns: shapes,
-        };
-        let header = serde_json::to_vec(&header).map_err(|e| IoError::Json(path.into(), e))?;
+        let (meta, columns) = (&self.meta, shapes);
+        let header = serde_json::to_vec(&Header { meta, columns });
+        let header = header.map_err(|e| IoError::Json(path.into(), e))?;
         let total = PREFIX + header.len() as u64 + data + SUFFIX;
-        write_atomic(path, Durability::Power, |file| {
-            self.fill(file, &header, total)
-        })
+        let fill = |file: &mut dyn Write| self.fill(file, &header, total);
+        write_atomic(path, Durability::Power, fill)
     }
 
     fn fill(&self, file: &mut dyn Write, header: &[u8], total: u64) -> io::Result<()> {

@@ -48,9 +48,8 @@ impl<'a> Cloud<'a> {
     pub fn new(points: &'a [[f64; 3]], spacing: f64) -> Self {
         let first = points.first().map_or(0.0, |p| p[2]);
         let planar = points.iter().all(|p| p[2] == first);
-        let finite = (0..)
-            .zip(points)
-            .filter(|(_, p)| p.iter().all(|x| x.is_finite()));
+        let finite = |(_, p): &(u32, &[f64; 3])| p.iter().all(|x| x.is_finite());
+        let finite = (0..).zip(points).filter(finite);
         let cells = finite.map(|(k, point)| (zyx(*point), k));
         Cloud {
             points,
@@ -67,9 +66,8 @@ impl<'a> Cloud<'a> {
             let r = self.points[j as usize];
             (j, [0, 1, 2].map(|k| r[k] - x[k]))
         };
-        let here = self.cells.around(zyx(x));
-        here.map(apart)
-            .filter(move |(_, d)| square(d) < reach * reach)
+        let here = self.cells.around(zyx(x)).map(apart);
+        here.filter(move |(_, d)| square(d) < reach * reach)
     }
 
     /// The share of every particle around in the value at a place (m); nothing outside of the fluid.
@@ -112,7 +110,6 @@ fn zyx([x, y, z]: [f64; 3]) -> [f64; 3] {
     [z, y, x]
 }
 
-/// The squared length.
 pub(crate) fn square(d: &[f64; 3]) -> f64 {
     d.iter().map(|x| x * x).sum()
 }

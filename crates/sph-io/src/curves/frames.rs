@@ -51,9 +51,8 @@ impl Frames {
             }
         }
         entries.sort_by(|a, b| a.time.total_cmp(&b.time));
-        let first = entries.first();
         let none = || format!("{} holds no frames of particles", folder.display());
-        let first = first.ok_or_else(|| DrawError::Unfit(none()))?;
+        let first = (entries.first()).ok_or_else(|| DrawError::Unfit(none()))?;
         let (piece, _) = crate::read_piece(&first.particles)?;
         let spacing = spacing(&piece.points);
         Ok(Frames { entries, spacing })
@@ -64,10 +63,8 @@ impl Frames {
         let last = &self.entries[self.entries.len() - 1];
         let Some(time) = time else { return last };
         let apart = |e: &Entry| (e.time - time).abs();
-        let nearest = self
-            .entries
-            .iter()
-            .min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let all = self.entries.iter();
+        let nearest = all.min_by(|a, b| apart(a).total_cmp(&apart(b)));
         nearest.unwrap_or(last)
     }
 
@@ -121,11 +118,9 @@ fn spacing(points: &[[f64; 3]]) -> f64 {
     let step = points.len().div_ceil(SAMPLED).max(1);
     let mut nearest: Vec<f64> = Vec::new();
     for (k, x) in points.iter().enumerate().step_by(step) {
-        let apart = |(j, r): (usize, &[f64; 3])| match j == k {
-            true => f64::INFINITY,
-            false => (0..3).map(|i| (r[i] - x[i]).powi(2)).sum(),
-        };
-        let all = points.iter().enumerate().map(apart);
+        let others = points.iter().enumerate().filter(|(j, _)| *j != k);
+        let apart = |r: &[f64; 3]| (0..3).map(|i| (r[i] - x[i]).powi(2)).sum();
+        let all = others.map(|(_, r)| apart(r));
         nearest.push(all.fold(f64::INFINITY, f64::min));
     }
     nearest.sort_by(f64::total_cmp);

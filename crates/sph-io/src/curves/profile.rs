@@ -65,16 +65,15 @@ pub fn draw_profile(
         let snapshot = frames.read(frames.at(*time))?;
         let column = snapshot.column(field)?;
         let points = snapshot.profile(line, &column.values);
-        for ([distance, value], (_, place)) in points.iter().zip(line.places()) {
-            let [x, y, z] = place;
+        for ([distance, value], (_, [x, y, z])) in points.iter().zip(line.places()) {
             rows.push(vec![snapshot.time, *distance, x, y, z, *value]);
         }
         plot.y_label = column.label;
         unit = column.unit;
         let time = format!("{:.6}", snapshot.time);
         let time = time.trim_end_matches('0').trim_end_matches('.');
-        plot.series
-            .push(Series::line(format!("t = {time} s"), points));
+        let name = format!("t = {time} s");
+        plot.series.push(Series::line(name, points));
     }
     plot.save(path)?;
     let columns = [("time", "s"), ("distance", "m")].into_iter().chain(PLACE);

@@ -3,7 +3,7 @@
 use sph_core::{Corners, bounds};
 
 use crate::curves::{Cloud, DrawError, Result};
-use crate::{FieldValues, Location, Picture, Piece, View};
+use crate::{FieldData, FieldValues, Location, Picture, Piece, View};
 
 /// Particles at one time.
 pub struct Snapshot {
@@ -39,7 +39,6 @@ impl Snapshot {
         &self.piece.points
     }
 
-    /// The box around the particles, m.
     pub(crate) fn bounds(&self) -> Corners<3> {
         finite_bounds(self.points().iter())
     }
@@ -78,10 +77,8 @@ impl Snapshot {
     /// # Errors
     /// If no such field was written, or it has no such component.
     pub fn column(&self, asked: &str) -> Result<Column> {
-        let (name, component) = match asked.split_once('.') {
-            Some((name, component)) => (name, Some(component)),
-            None => (asked, None),
-        };
+        let (name, component) = asked.split_once('.').unzip();
+        let name = name.unwrap_or(asked);
         let field = match (name, self.field(name)) {
             ("speed", Err(_)) => self.field("velocity"),
             (_, found) => found,
@@ -91,11 +88,9 @@ impl Snapshot {
         let one = |component: &str| {
             let axis = ["x", "y", "z"].iter().position(|a| *a == component);
             let place = axis.or_else(|| component.parse().ok());
-            place.filter(|k| *k < per).ok_or_else(|| {
-                DrawError::Unfit(format!(
-                    "`{name}` has {per} components, and no `{component}`"
-                ))
-            })
+            let none = || format!("`{name}` has {per} components, and no `{component}`");
+            let place = place.filter(|k| *k < per);
+            place.ok_or_else(|| DrawError::Unfit(none()))
         };
         let values = match component.map(one).transpose()? {
             Some(k) => all.chunks(per).map(|c| c[k]).collect(),
@@ -117,18 +112,17 @@ impl Snapshot {
         })
     }
 
-    fn field(&self, name: &str) -> Result<&crate::FieldData<'static>> {
-        let mut at_points = self.piece.fields.iter();
-        at_points
-            .find(|f| f.name == name && f.location == Location::Point)
-            .ok_or_else(|| self.missing(name))
+    fn field(&self, name: &str) -> Result<&FieldData<'static>> {
+        let at_points = |f: &&FieldData| f.name == name && f.location == Location::Point;
+        let found = self.piece.fields.iter().find(at_points);
+        found.ok_or_else(|| self.missing(name))
     }
 
     fn missing(&self, name: &str) -> DrawError {
         let known: Vec<&str> = self.piece.fields.iter().map(|f| f.name.as_ref()).collect();
-        let known = known.join(", ");
         DrawError::Unfit(format!(
-            "no field `{name}` was written (there are: {known}); name it in output.fields and run again"
+            "no field `{name}` was written (there are: {}); name it in output.fields and run again",
+            known.join(", ")
         ))
     }
 

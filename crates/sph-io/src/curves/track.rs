@@ -33,13 +33,11 @@ pub fn tracks(frames: &Frames, identities: &[u32]) -> Result<Vec<Track>> {
             }
         }
     }
-    match all.iter().find(|t| t.places.is_empty()) {
-        Some(lost) => {
-            let said = format!("no frame has a particle of identity {}", lost.identity);
-            Err(DrawError::Unfit(said))
-        }
-        None => Ok(all),
+    if let Some(Track { identity, .. }) = all.iter().find(|t| t.places.is_empty()) {
+        let said = format!("no frame has a particle of identity {identity}");
+        return Err(DrawError::Unfit(said));
     }
+    Ok(all)
 }
 
 /// The identity of the particle that is nearest to a place (m).
@@ -51,8 +49,8 @@ pub fn nearest(snapshot: &Snapshot, place: [f64; 3]) -> Result<u32> {
     let apart = |r: &[f64; 3]| (0..3).map(|k| (r[k] - place[k]).powi(2)).sum::<f64>();
     let all = snapshot.points().iter().map(apart).zip(identities);
     let found = all.min_by(|a, b| a.0.total_cmp(&b.0));
-    let found = found.map(|(_, identity)| identity);
-    found.ok_or_else(|| DrawError::Unfit("there is no particle".into()))
+    let none = || DrawError::Unfit("there is no particle".into());
+    found.map(|(_, identity)| identity).ok_or_else(none)
 }
 
 /// `count` identities, evenly spread over those of a frame.
@@ -86,9 +84,9 @@ pub fn draw_tracks(frames: &Frames, tracks: &[Track], field: &str, path: &Path) 
     };
     picture.save(path)?;
     let rows = tracks.iter().flat_map(|t| {
-        let row =
-            |(time, [x, y, z]): &(f64, [f64; 3])| vec![f64::from(t.identity), *time, *x, *y, *z];
-        t.places.iter().map(row)
+        let identity = f64::from(t.identity);
+        let places = t.places.iter();
+        places.map(move |(time, [x, y, z])| vec![identity, *time, *x, *y, *z])
     });
     let columns = [("identity", "1"), ("time", "s")].into_iter().chain(PLACE);
     write_beside(path, columns, rows)

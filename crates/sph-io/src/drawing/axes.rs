@@ -5,7 +5,6 @@ use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Pen, Rect, Spot
 use crate::drawing::text;
 use crate::drawing::ticks::{self, Ticks};
 
-/// One direction of a frame.
 #[derive(Clone, Debug)]
 pub(crate) struct PlotAxis {
     pub(crate) lo: f64,
@@ -25,11 +24,12 @@ impl PlotAxis {
     }
 
     pub(crate) fn ticks(&self, wanted: usize) -> Ticks {
-        if self.log {
-            ticks::logarithmic(self.lo, self.hi, wanted)
+        let ticks = if self.log {
+            ticks::logarithmic
         } else {
-            ticks::linear(self.lo, self.hi, wanted)
-        }
+            ticks::linear
+        };
+        ticks(self.lo, self.hi, wanted)
     }
 }
 
@@ -48,19 +48,25 @@ impl Axes {
     /// The spot of the point (`x`, `y`) in axis units.
     pub(crate) fn spot(&self, x: f64, y: f64) -> Spot {
         let f = &self.frame;
-        [
-            f.left + self.x.place(x) * f.width(),
-            f.bottom - self.y.place(y) * f.height(),
-        ]
+        let right = f.left + self.x.place(x) * f.width();
+        [right, f.bottom - self.y.place(y) * f.height()]
     }
 
-    /// Ticks of the horizontal axis, as many as the width takes.
+    /// The middle of the column of pixels at `x`.
+    fn column(&self, x: f64) -> f64 {
+        crisp(self.spot(x, self.y.lo)[0])
+    }
+
+    /// The middle of the row of pixels at `y`.
+    fn row(&self, y: f64) -> f64 {
+        crisp(self.spot(self.x.lo, y)[1])
+    }
+
     fn x_ticks(&self) -> Ticks {
-        self.x
-            .ticks(ticks_within(self.frame.width() / (6.5 * self.size)))
+        let wanted = ticks_within(self.frame.width() / (6.5 * self.size));
+        self.x.ticks(wanted)
     }
 
-    /// Ticks of the vertical axis, as many as the height takes.
     fn y_ticks(&self) -> Ticks {
         y_ticks(&self.y, self.frame.height(), self.size)
     }
@@ -72,12 +78,10 @@ impl Axes {
         }
         let pen = Pen::solid(Colour::FAINT, self.size / 18.0);
         let f = self.frame;
-        for (x, _) in &self.x_ticks().major {
-            let at = crisp(self.spot(*x, self.y.lo)[0]);
+        for at in self.x_ticks().major.iter().map(|(x, _)| self.column(*x)) {
             on.line(&[[at, f.top], [at, f.bottom]], pen);
         }
-        for (y, _) in &self.y_ticks().major {
-            let at = crisp(self.spot(self.x.lo, *y)[1]);
+        for at in self.y_ticks().major.iter().map(|(y, _)| self.row(*y)) {
             on.line(&[[f.left, at], [f.right, at]], pen);
         }
     }
@@ -88,19 +92,18 @@ impl Axes {
         let pen = Pen::solid(Colour::INK, size / 16.0);
         let [a, b, c, d] = f.corners().map(|[x, y]| [crisp(x), crisp(y)]);
         on.line(&[a, b, c, d, a], pen);
-        let mark = |major: bool| size * if major { 0.35 } else { 0.2 };
+        let [long, short] = [size * 0.35, size * 0.2];
         let middle = Lettering::new(size, Anchor::Middle);
         let end = Lettering::new(size, Anchor::End);
 
         let ticks = self.x_ticks();
         for (x, label) in &ticks.major {
-            let at = crisp(self.spot(*x, self.y.lo)[0]);
-            on.line(&[[at, f.bottom], [at, f.bottom + mark(true)]], pen);
+            let at = self.column(*x);
+            on.line(&[[at, f.bottom], [at, f.bottom + long]], pen);
             on.text([at, f.bottom + 1.5 * size], label, middle);
         }
-        for x in &ticks.minor {
-            let at = crisp(self.spot(*x, self.y.lo)[0]);
-            on.line(&[[at, f.bottom], [at, f.bottom + mark(false)]], pen);
+        for at in ticks.minor.iter().map(|x| self.column(*x)) {
+            on.line(&[[at, f.bottom], [at, f.bottom + short]], pen);
         }
         let below = f.bottom + 2.85 * size;
         let centre = [(f.left + f.right) / 2.0, below];
@@ -111,20 +114,16 @@ impl Axes {
 
         let ticks = self.y_ticks();
         for (y, label) in &ticks.major {
-            let at = crisp(self.spot(self.x.lo, *y)[1]);
-            on.line(&[[f.left - mark(true), at], [f.left, at]], pen);
+            let at = self.row(*y);
+            on.line(&[[f.left - long, at], [f.left, at]], pen);
             on.text([f.left - 0.55 * size, at + 0.36 * size], label, end);
         }
-        for y in &ticks.minor {
-            let at = crisp(self.spot(self.x.lo, *y)[1]);
-            on.line(&[[f.left - mark(false), at], [f.left, at]], pen);
+        for at in ticks.minor.iter().map(|y| self.row(*y)) {
+            on.line(&[[f.left - short, at], [f.left, at]], pen);
         }
         let left = f.left - label_room(&ticks, size) + 1.2 * size;
-        let upwards = Lettering {
-            upwards: true,
-            ..middle
-        };
-        on.text([left, (f.top + f.bottom) / 2.0], &self.y.label, upwards);
+        let centre = [left, (f.top + f.bottom) / 2.0];
+        on.text(centre, &self.y.label, middle.upwards());
         if let Some(factor) = &ticks.factor {
             on.text([f.left, f.top - 0.45 * size], factor, middle);
         }

@@ -60,10 +60,7 @@ impl ColourBar<'_> {
         if let Some(factor) = &ticks.factor {
             on.text([bar.left, frame.top - 0.5 * size], factor, start);
         }
-        let upwards = Lettering {
-            upwards: true,
-            ..Lettering::new(size, Anchor::Middle)
-        };
+        let upwards = Lettering::new(size, Anchor::Middle).upwards();
         let right = bar.right + self.labels_width(&ticks) + 1.75 * size;
         let middle = (frame.top + frame.bottom) / 2.0;
         on.text([right, middle], self.label, upwards);
@@ -133,14 +130,9 @@ impl ClassBar<'_> {
                 bottom: top + size,
             };
             on.block(block, SERIES[k % SERIES.len()]);
-            let [a, b, c, d] = block.corners();
-            on.line(&[a, b, c, d, a], Pen::solid(Colour::INK, size / 16.0));
-            let start = Lettering::new(size, Anchor::Start);
-            on.text(
-                [block.right + 0.4 * size, block.bottom - 0.14 * size],
-                name,
-                start,
-            );
+            on.line(&block.outline(), Pen::solid(Colour::INK, size / 16.0));
+            let at = [block.right + 0.4 * size, block.bottom - 0.14 * size];
+            on.text(at, name, Lettering::new(size, Anchor::Start));
         }
     }
 }

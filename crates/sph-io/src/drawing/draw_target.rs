@@ -44,11 +44,8 @@ pub(crate) struct Lettering {
 
 /// Pixels or a vector file.
 pub(crate) trait DrawTarget {
-    /// A line through `points`.
     fn line(&mut self, points: &[Spot], pen: Pen);
-    /// A filled polygon.
     fn area(&mut self, outline: &[Spot], fill: Fill);
-    /// A filled circle.
     fn disc(&mut self, centre: Spot, radius: f64, fill: Fill);
     /// A text with its baseline through `at`.
     fn text(&mut self, at: Spot, text: &str, lettering: Lettering);
@@ -56,20 +53,22 @@ pub(crate) trait DrawTarget {
 
 impl Pen {
     pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+        let dashed = false;
         Self {
             colour,
             width,
-            dashed: false,
+            dashed,
         }
     }
 }
 
 impl Fill {
     pub(crate) fn solid(colour: Colour) -> Self {
-        Self {
-            colour,
-            opacity: 1.0,
-        }
+        Self::new(colour, 1.0)
+    }
+
+    pub(crate) fn new(colour: Colour, opacity: f64) -> Self {
+        Self { colour, opacity }
     }
 }
 
@@ -80,6 +79,11 @@ impl Lettering {
             anchor,
             upwards: false,
         }
+    }
+
+    pub(crate) fn upwards(self) -> Self {
+        let upwards = true;
+        Self { upwards, ..self }
     }
 }
 
@@ -112,13 +116,14 @@ impl Rect {
     }
 
     pub(crate) fn corners(&self) -> [Spot; 4] {
-        let Self {
-            left,
-            top,
-            right,
-            bottom,
-        } = *self;
+        let ([left, right], [top, bottom]) = ([self.left, self.right], [self.top, self.bottom]);
         [[left, top], [right, top], [right, bottom], [left, bottom]]
+    }
+
+    /// The corners, the first of them again at the end.
+    pub(crate) fn outline(&self) -> [Spot; 5] {
+        let [a, b, c, d] = self.corners();
+        [a, b, c, d, a]
     }
 
     pub(crate) fn holds(&self, [x, y]: Spot) -> bool {

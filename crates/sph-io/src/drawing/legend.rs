@@ -23,20 +23,14 @@ pub(crate) fn draw_legend(on: &mut dyn DrawTarget, marks: &[Mark], axes: &Axes) 
     let hidden = |place: &Rect| (under(place, 0), under(place, 1));
     let places = corners(&axes.frame, width, height, 0.6 * size);
     let place = places.into_iter().min_by_key(hidden).unwrap_or(axes.frame);
-    let paper = Fill {
-        colour: Colour::WHITE,
-        opacity: 0.85,
-    };
-    let [a, b, c, d] = place.corners();
-    on.area(&[a, b, c, d], paper);
-    on.line(&[a, b, c, d, a], Pen::solid(Colour::FAINT, size / 14.0));
+    on.area(&place.corners(), Fill::new(Colour::WHITE, 0.85));
+    on.line(&place.outline(), Pen::solid(Colour::FAINT, size / 14.0));
     for (i, mark) in named.iter().enumerate() {
         let y = place.top + (1.45 * i as f64 + 0.97) * size;
         let [from, to] = [0.6, 2.8].map(|right| [place.left + right * size, y]);
         mark.draw_sample(on, [from, to], size);
-        let start = Lettering::new(size, Anchor::Start);
         let at = [place.left + 3.4 * size, y + 0.36 * size];
-        on.text(at, &mark.series.name, start);
+        on.text(at, &mark.series.name, Lettering::new(size, Anchor::Start));
     }
 }
 

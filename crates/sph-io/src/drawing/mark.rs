@@ -183,10 +183,8 @@ impl Mark<'_> {
             2 => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
             _ => &[[0.0, -1.3], [1.15, 0.75], [-1.15, 0.75]],
         };
-        let outline = corners
-            .iter()
-            .map(|[right, down]| [x + right * r, y + down * r]);
-        on.area(&outline.collect::<Vec<Spot>>(), fill);
+        let place = |[right, down]: &Spot| [x + right * r, y + down * r];
+        on.area(&corners.iter().map(place).collect::<Vec<Spot>>(), fill);
     }
 
     fn pen(&self, size: f64) -> Pen {
@@ -207,10 +205,7 @@ impl Mark<'_> {
     }
 
     fn band_fill(&self) -> Fill {
-        Fill {
-            colour: self.colour(),
-            opacity: 0.25,
-        }
+        Fill::new(self.colour(), 0.25)
     }
 }
 
@@ -225,13 +220,10 @@ fn thinned(line: &[Spot]) -> Vec<Spot> {
         let height = |&i: &usize, &j: &usize| run[i][1].total_cmp(&run[j][1]);
         let lowest = (0..run.len()).min_by(height).unwrap_or(0);
         let highest = (0..run.len()).max_by(height).unwrap_or(0);
-        let mut kept = [0, lowest, highest, run.len() - 1];
+        let mut kept = vec![0, lowest, highest, run.len() - 1];
         kept.sort_unstable();
-        for (i, &k) in kept.iter().enumerate() {
-            if i == 0 || kept[i - 1] != k {
-                out.push(run[k]);
-            }
-        }
+        kept.dedup();
+        out.extend(kept.into_iter().map(|k| run[k]));
     }
     out
 }

@@ -41,11 +41,8 @@ impl Picture<'_> {
                 let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
                 // A rim separates spheres of one colour.
-                let rim = if self.diameters.is_empty() {
-                    0.0
-                } else {
-                    0.1 * radius
-                };
+                let share = if self.diameters.is_empty() { 0.0 } else { 0.1 };
+                let rim = share * radius;
                 if rim > 0.0 {
                     let dark = Fill::solid(colour.darker());
                     canvas.clipped_disc(spot, radius, dark, &axes.frame);
@@ -164,9 +161,11 @@ impl Relief {
                     if !depth[k].is_finite() {
                         continue;
                     }
-                    let (at, side) = match right {
-                        1 => (i, self.width),
-                        _ => (j, self.height),
+                    let along = right == 1;
+                    let (at, side) = if along {
+                        (i, self.width)
+                    } else {
+                        (j, self.height)
                     };
                     let stride = right + down * self.width;
                     let from = k - at.min(reach) * stride;

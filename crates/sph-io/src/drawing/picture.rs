@@ -92,8 +92,8 @@ impl<'a> Picture<'a> {
     /// Draws the picture and writes it to `path`, all or nothing.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let drawn = self.draw().map_err(|p| IoError::input(path, p))?;
-        drawn.save(path)
+        let drawn = self.draw().map_err(|p| IoError::input(path, p));
+        drawn?.save(path)
     }
 
     fn draw(&self) -> std::result::Result<Canvas, String> {
@@ -221,11 +221,7 @@ impl<'a> Picture<'a> {
         // How wide the tick labels are depends on the frame beside them.
         let mut axes = placed(4.0 * size, 0.0);
         for _ in 0..3 {
-            let top = if axes.y.ticks(5).factor.is_some() {
-                3.6
-            } else {
-                2.3
-            };
+            let top = axes.y.ticks(5).factor.map_or(2.3, |_| 3.6);
             let left = left_room(&axes.y, axes.frame.height(), size);
             axes = placed(left, top * size);
         }
@@ -269,19 +265,16 @@ impl<'a> Picture<'a> {
             let [x, y] = axes.spot(x, y);
             let wide = text::width(text, size);
             // Texts do not leave the frame.
-            let x = (x + 0.3 * size)
-                .min(axes.frame.right - wide)
-                .max(axes.frame.left);
-            let y = (y - 0.3 * size).clamp(axes.frame.top + size, axes.frame.bottom);
-            let paper = Fill {
-                colour: Colour::WHITE,
-                opacity: 0.7,
+            let frame = &axes.frame;
+            let x = (x + 0.3 * size).min(frame.right - wide).max(frame.left);
+            let y = (y - 0.3 * size).clamp(frame.top + size, frame.bottom);
+            let paper = Rect {
+                left: x,
+                top: y - 0.85 * size,
+                right: x + wide,
+                bottom: y + 0.25 * size,
             };
-            let (above, below) = (y - 0.85 * size, y + 0.25 * size);
-            canvas.area(
-                &[[x, above], [x + wide, above], [x + wide, below], [x, below]],
-                paper,
-            );
+            canvas.area(&paper.corners(), Fill::new(Colour::WHITE, 0.7));
             canvas.text([x, y], text, Lettering::new(size, Anchor::Start));
         }
     }
@@ -299,13 +292,12 @@ impl<'a> Picture<'a> {
             let angle = std::f64::consts::TAU * turn;
             [centre[0] + r * angle.cos(), centre[1] + r * angle.sin()]
         };
-        let mut lines: Vec<Vec<[f64; 2]>> = (0..48)
-            .map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)).to_vec())
-            .collect();
-        lines.extend((0..4).map(|k| {
+        let arcs = (0..48).map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)));
+        let strokes = (0..4).map(|k| {
             let turn = f64::from(k) / 4.0;
-            vec![at(radius, turn), at(radius + 1.2 * axes.size, turn)]
-        }));
+            [at(radius, turn), at(radius + 1.2 * axes.size, turn)]
+        });
+        let lines: Vec<[Spot; 2]> = arcs.chain(strokes).collect();
         // A light edge shows it on dark ground.
         for (colour, width) in [(Colour::WHITE, 0.3), (Colour::RING, 0.15)] {
             let pen = Pen::solid(colour, width * axes.size);

@@ -77,14 +77,9 @@ impl Plot {
     }
 
     fn check(&self, path: &Path) -> Result<()> {
-        for Series {
-            name,
-            points,
-            style,
-        } in &self.series
-        {
-            let points = points.len();
-            if let Style::Band(upper) = style
+        for series in &self.series {
+            let (name, points) = (&series.name, series.points.len());
+            if let Style::Band(upper) = &series.style
                 && upper.len() != points
             {
                 let upper = upper.len();
@@ -211,14 +206,9 @@ impl Panels {
         let [width, height] = PANEL;
         save(path, [width * self.0.len() as u32, height], |on| {
             for (number, plot) in (1..).zip(&self.0) {
-                let left = f64::from((number - 1) * width);
-                plot.draw(
-                    on,
-                    &Rect {
-                        left,
-                        ..Rect::sized([number * width, height])
-                    },
-                );
+                let mut place = Rect::sized([number * width, height]);
+                place.left = f64::from((number - 1) * width);
+                plot.draw(on, &place);
             }
         })
     }

@@ -1,6 +1,5 @@
 //! Round numbers along an axis, and how they are written.
 
-/// Marks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ticks {
     /// Marked and labelled.
@@ -93,10 +92,8 @@ fn factor(power: i32) -> Option<String> {
 
 /// The power of ten that labels up to `largest` leave out.
 fn shared_power(largest: f64) -> i32 {
-    let power = match largest > 0.0 {
-        true => largest.log10().floor() as i32,
-        false => 0,
-    };
+    let exponent = || largest.log10().floor() as i32;
+    let power = if largest > 0.0 { exponent() } else { 0 };
     if (-3..5).contains(&power) { 0 } else { power }
 }
 

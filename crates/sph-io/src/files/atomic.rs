@@ -19,7 +19,6 @@ use tempfile::TempPath;
 use crate::error::{IoError, Result};
 use crate::files::folder::folder_of;
 
-/// Durability of a write when the call returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Durability {
     /// The process may die: the content is with the operating system.
@@ -121,10 +120,13 @@ fn is_temporary(name: &str) -> bool {
     if name.strip_prefix(".writable-").is_some_and(digits) {
         return true;
     }
-    let rest = name
-        .strip_prefix('.')
-        .and_then(|rest| rest.strip_suffix(".tmp"));
-    let mark = rest.and_then(|rest| rest.rsplit_once('.')?.1.split_once('-'));
+    let hidden = name.strip_prefix('.');
+    let mark = hidden.and_then(|rest| {
+        rest.strip_suffix(".tmp")?
+            .rsplit_once('.')?
+            .1
+            .split_once('-')
+    });
     mark.is_some_and(|(pid, serial)| digits(pid) && digits(serial))
 }
 
@@ -133,10 +135,9 @@ mod tests {
     use super::*;
 
     fn names(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder)
-            .unwrap()
-            .map(|e| e.unwrap().file_name());
-        entries.map(|name| name.into_string().unwrap()).collect()
+        let entries = fs::read_dir(folder).unwrap();
+        let name = |e: io::Result<fs::DirEntry>| e.unwrap().file_name().into_string();
+        entries.map(|e| name(e).unwrap()).collect()
     }
 
     #[test]

@@ -19,27 +19,25 @@ fn is_control(c: char) -> bool {
 /// The text with a stand-in for every such character, of as many bytes, so that places in it stay right.
 pub fn clean(text: &str) -> Cow<'_, str> {
     match text.contains(is_control) {
-        false => Cow::Borrowed(text),
-        true => Cow::Owned(text.chars().flat_map(shown).collect()),
+        false => text.into(),
+        true => text.chars().flat_map(shown).collect(),
     }
 }
 
 /// A text of JSON with such characters as escapes: it is read back as it was.
 pub fn escaped(json: &str) -> Cow<'_, str> {
     if !json.contains(is_control) {
-        return Cow::Borrowed(json);
+        return json.into();
     }
     let mut text = String::with_capacity(json.len());
     for c in json.chars() {
         match is_control(c) {
-            true => c
-                .encode_utf16(&mut [0; 2])
-                .iter()
-                .for_each(|u| text.push_str(&format!("\\u{u:04x}"))),
+            true => (c.encode_utf16(&mut [0; 2]).iter())
+                .for_each(|unit| text.push_str(&format!("\\u{unit:04x}"))),
             false => text.push(c),
         }
     }
-    Cow::Owned(text)
+    text.into()
 }
 
 fn shown(c: char) -> impl Iterator<Item = char> {

@@ -75,7 +75,6 @@ pub fn writable(folder: impl AsRef<Path>) -> Result<()> {
     })
 }
 
-/// The folder of a file.
 pub(crate) fn folder_of(file: &Path) -> &Path {
     let named = file.parent().filter(|f| !f.as_os_str().is_empty());
     named.unwrap_or(Path::new("."))

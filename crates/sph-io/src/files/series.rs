@@ -51,14 +51,14 @@ impl SeriesWriter {
     ) -> Result<Self> {
         let path = path.as_ref();
         let cells = headings(path, columns)?;
+        let failed = |e| IoError::write(path, e);
         if leads_elsewhere(path) {
-            let error = std::io::Error::other("what has this name is a link or a pipe");
-            return Err(IoError::write(path, error));
+            let why = "what has this name is a link or a pipe";
+            return Err(failed(std::io::Error::other(why)));
         }
-        let file = File::create(path).map_err(|e| IoError::write(path, e))?;
         let mut series = Self {
-            path: path.to_path_buf(),
-            file,
+            path: path.into(),
+            file: File::create(path).map_err(failed)?,
             columns: cells.len(),
             position: 0,
         };
@@ -102,7 +102,7 @@ impl SeriesWriter {
         }
         file.set_len(offset).map_err(|e| IoError::write(path, e))?;
         Ok(Self {
-            path: path.to_path_buf(),
+            path: path.into(),
             file,
             columns: cells.len(),
             position: offset,
@@ -171,7 +171,6 @@ fn difference(header: &str, cells: &[String]) -> Option<String> {
     }
 }
 
-/// A row of a table with so many columns.
 fn line(path: &Path, values: &[f64], columns: usize) -> Result<String> {
     if values.len() != columns {
         let problem = format!("a row of {} values for {columns} columns", values.len());

@@ -83,7 +83,6 @@ pub enum FieldValues<'a> {
 }
 
 impl FieldValues<'_> {
-    /// Number of values.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
@@ -203,10 +202,8 @@ impl Piece<'_> {
             if self.fields[..i].iter().any(twin) {
                 return Err(format!("piece `{piece}` has two fields named `{name}`"));
             }
-            let tuples = match field.location {
-                Location::Point => points,
-                Location::Cell => cells,
-            };
+            let at_points = field.location == Location::Point;
+            let tuples = if at_points { points } else { cells };
             let (found, per) = (field.data.len(), field.components);
             if per == 0 || tuples.checked_mul(per) != Some(found) {
                 return Err(format!(

@@ -10,19 +10,12 @@ pub fn escape(text: &str) -> Cow<'_, str> {
     if !text.contains(odd) {
         return text.into();
     }
-    let mut out = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&apos;"),
-            c if c.is_control() => out.push('?'),
-            c => out.push(c),
-        }
-    }
-    out.into()
+    let text = text
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;");
+    let text = text.replace('"', "&quot;").replace('\'', "&apos;");
+    text.replace(|c: char| c.is_control(), "?").into()
 }
 
 #[cfg(test)]
