@@ -28,6 +28,13 @@ pub fn conform(value: &mut Value, schema: &Json) -> Result<Vec<SceneProblem>, Ve
     }
 }
 
+/// The part of a schema that a part refers to; the part itself if it refers to none.
+pub fn resolved<'s>(root: &'s Json, part: &'s Json) -> &'s Json {
+    let target = part.get("$ref").and_then(Json::as_str);
+    let target = target.and_then(|r| root.pointer(r.strip_prefix('#')?));
+    target.unwrap_or(part)
+}
+
 struct Walk<'s> {
     root: &'s Json,
     problems: Vec<SceneProblem>,
@@ -35,12 +42,6 @@ struct Walk<'s> {
 }
 
 impl<'s> Walk<'s> {
-    fn resolve(&self, schema: &'s Json) -> &'s Json {
-        let target = schema.get("$ref").and_then(Json::as_str);
-        let target = target.and_then(|r| self.root.pointer(r.strip_prefix('#')?));
-        target.unwrap_or(schema)
-    }
-
     fn problem(&mut self, path: &str, message: String) {
         self.problems.push(SceneProblem::new(path, message));
     }
@@ -60,7 +61,7 @@ impl<'s> Walk<'s> {
             return;
         }
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
-        let schema = self.resolve(schema);
+        let schema = resolved(self.root, schema);
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
         for key in ["anyOf", "oneOf"] {
             if let Some(options) = schema.get(key).and_then(Json::as_array) {

@@ -40,9 +40,10 @@ pub fn for_editors(schema: &mut Json) {
 /// The default of every property that has one, by name.
 pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
     let properties = schema.get("properties").and_then(Json::as_object);
+    let default = |(name, p): (&String, &Json)| Some((name.clone(), p.get("default")?.clone()));
     properties
         .into_iter()
         .flatten()
-        .filter_map(|(name, p)| p.get("default").map(|d| (name.clone(), d.clone())))
+        .filter_map(default)
         .collect()
 }

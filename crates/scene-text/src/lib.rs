@@ -37,7 +37,7 @@ mod source;
 pub mod surface;
 mod text;
 
-pub use conform::conform;
+pub use conform::{conform, resolved};
 pub use diagnostic::{Diagnostic, Origin};
 pub use editors::{defaults, for_editors};
 pub use files::named_files;

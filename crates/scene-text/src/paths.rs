@@ -39,20 +39,17 @@ pub enum PathProblem {
 pub fn within(folder: &Path, named: &str, allowed: &[PathBuf]) -> Result<PathBuf, PathProblem> {
     let path = joined(folder, named)?;
     let real = real(&path);
-    let in_folder = |folder: &Path| match (&real, real_folder(folder)) {
-        (Some(real), Some(folder)) => real.starts_with(folder),
-        _ => false,
-    };
+    let starts = |folder| real.as_ref().is_some_and(|real| real.starts_with(folder));
+    let in_folder = |folder: &Path| real_folder(folder).is_some_and(starts);
     if allowed.iter().any(|folder| in_folder(folder)) {
         return Ok(path);
     }
     leaves(named)?;
-    match real {
-        Some(real) if real_folder(folder).is_some() && !in_folder(folder) => Err(
-            PathProblem::Link(named.to_string(), real.display().to_string()),
-        ),
-        // A missing file leads nowhere.
-        _ => Ok(path),
+    // A missing file leads nowhere.
+    let leads = real_folder(folder).is_some() && !in_folder(folder);
+    match real.filter(|_| leads) {
+        Some(real) => Err(PathProblem::Link(named.into(), real.display().to_string())),
+        None => Ok(path),
     }
 }
 

@@ -1,7 +1,7 @@
 //! All checks beyond the schema of a scene.
 
 use scene_text::Problems;
-use sph_core::{Place, SceneProblem, kinds};
+use sph_core::{Place, SceneProblem, comma_list, kinds};
 use toml::{Table, Value};
 
 use crate::checks::names::inside;
@@ -31,8 +31,8 @@ pub(crate) fn tables(scene: &Table) -> Vec<SceneProblem> {
 fn single(plugins: &Value, path: &str, found: &mut Problems) {
     let names: Vec<&String> = inside(Some(plugins)).map(|(name, _)| name).collect();
     if let [_, .., last] = names.as_slice() {
-        let list: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-        let message = format!("only one plugin can stand here, found {}", list.join(", "));
+        let list = comma_list(names.iter().map(|n| format!("`{n}`")));
+        let message = format!("only one plugin can stand here, found {list}");
         found.add(format!("{path}.{last}"), message);
     }
 }

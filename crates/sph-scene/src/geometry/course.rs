@@ -1,7 +1,5 @@
 //! Courses over time from the motion of a wall.
 
-use std::path::Path;
-
 use scene_text::given;
 use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
@@ -48,23 +46,22 @@ impl Motion {
                 .course(&format!("{place}.{}", self.translate_key(k)))?;
             translations.push(Translation { along, course });
         }
-        let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
-            centre: array(centre.unwrap_or_default()),
+        let speed = self.angular_velocity;
+        let (centre, axis, course) = match &self.rotate {
+            Some(rotate) => {
+                let course = rotate.given().course(&format!("{place}.rotate"))?;
+                (Some(&rotate.centre), &rotate.axis, Some(course))
+            }
+            None => {
+                let course = (speed != 0.0).then_some(Course::Steady { speed });
+                (self.centre.as_ref(), &self.axis, course)
+            }
+        };
+        let rotation = course.map(|course| course::Rotation {
+            centre: array(centre.map_or(&[], |centre| centre)),
             axis: unit_axis(axis),
             course,
-        };
-        let speed = self.angular_velocity;
-        let rotation = match &self.rotate {
-            Some(given) => {
-                let course = given.given().course(&format!("{place}.rotate"))?;
-                Some(turning(Some(&given.centre), &given.axis, course))
-            }
-            None if speed != 0.0 => {
-                let course = Course::Steady { speed };
-                Some(turning(self.centre.as_deref(), &self.axis, course))
-            }
-            None => None,
-        };
+        });
         Ok(Courses {
             translations,
             rotation,
@@ -146,10 +143,7 @@ impl<'a> ImposedCourse<'a> {
         Ok(Course::Table { rows })
     }
 
-    /// Keys of the scene for the columns of the file.
-    ///
-    /// # Errors
-    /// The key that is wrong, and why.
+    /// Keys of the scene for the columns of the file; or the key that is wrong, and why.
     pub fn form(&self) -> Result<Form, (&'static str, String)> {
         let factor = |given: &Option<String>, alike| {
             let given = given.as_deref();
@@ -164,34 +158,29 @@ impl<'a> ImposedCourse<'a> {
         })
     }
 
-    /// The rows of the file.
+    /// The rows of the file, whose times rise.
     fn rows(&self) -> Result<Vec<Row>, String> {
         let path = self.rows.path.as_deref();
         let path = path.ok_or_else(|| "the course is missing".to_string())?;
         let form = self.form().map_err(|(_, why)| why)?;
-        course_rows(path, &form)
-    }
-}
-
-/// The rows of a file that is a course.
-fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
-    let blocks = rows::read(path, form)?;
-    let rows: Vec<Row> = blocks.into_iter().flatten().collect();
-    let (name, count) = (path.display(), rows.len());
-    if count > TIMES {
-        return Err(format!("`{name}` holds {count} rows, more than {TIMES}"));
-    }
-    if count < 2 {
-        return Err(format!(
-            "`{name}` holds {count} rows, and a course needs at least 2"
-        ));
-    }
-    match rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
-        None => Ok(rows),
-        Some(pair) => Err(format!(
-            "`{name}`, line {}: times must rise, {} s follows {} s",
-            pair[1].line, pair[1].values[0], pair[0].values[0]
-        )),
+        let blocks = rows::read(path, &form)?;
+        let rows: Vec<Row> = blocks.into_iter().flatten().collect();
+        let (name, count) = (path.display(), rows.len());
+        if count > TIMES {
+            return Err(format!("`{name}` holds {count} rows, more than {TIMES}"));
+        }
+        if count < 2 {
+            return Err(format!(
+                "`{name}` holds {count} rows, and a course needs at least 2"
+            ));
+        }
+        match rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
+            None => Ok(rows),
+            Some(pair) => Err(format!(
+                "`{name}`, line {}: times must rise, {} s follows {} s",
+                pair[1].line, pair[1].values[0], pair[0].values[0]
+            )),
+        }
     }
 }
 

@@ -23,10 +23,8 @@ pub(crate) fn depth(semi_axes: [f64; 2], x: [f64; 2]) -> f64 {
             if middle <= low || middle >= high {
                 break;
             }
-            match g(middle) > 0.0 {
-                true => low = middle,
-                false => high = middle,
-            }
+            let end = if g(middle) > 0.0 { &mut low } else { &mut high };
+            *end = middle;
         }
         let t = 0.5 * (low + high);
         b * (u * r / (t + r) - u).hypot(v / (t + 1.0) - v)
@@ -47,15 +45,9 @@ mod tests {
     #[test]
     fn distances_are_those_of_the_densely_sampled_line() {
         for axes in [[2.0, 1.0], [1.0, 2.0], [1.0, 1.0], [0.105, 0.095]] {
-            for at in [
-                [0.0, 0.0],
-                [0.3, 0.4],
-                [1.0, 0.0],
-                [0.0, 1.0],
-                [1.9, 0.1],
-                [-3.0, 2.0],
-                [0.0, -5.0],
-            ] {
+            let near = [[0.0, 0.0], [0.3, 0.4], [1.0, 0.0], [0.0, 1.0]];
+            let far = [[1.9, 0.1], [-3.0, 2.0], [0.0, -5.0]];
+            for at in near.into_iter().chain(far) {
                 let x = [0, 1].map(|k: usize| at[k] * axes[k]);
                 let sampled = (0..200_000)
                     .map(|k| f64::from(k) * std::f64::consts::TAU / 200_000.0)

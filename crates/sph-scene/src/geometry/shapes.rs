@@ -89,10 +89,11 @@ impl<const D: usize> Shape<D> {
             Shape::Ellipse { centre, semi_axes } => {
                 ellipse::depth(*semi_axes, [x[0] - centre[0], x[1] - centre[1]])
             }
-            Shape::Side { surface, above } => match above {
-                true => surface.above(x),
-                false => -surface.above(x),
-            },
+            Shape::Side {
+                surface,
+                above: true,
+            } => surface.above(x),
+            Shape::Side { surface, .. } => -surface.above(x),
             Shape::OverWave(wave) => wave.above(x),
             Shape::Polygon(polygon) => polygon.depth([x[0], x[1]]),
             Shape::Cylinder { from, to, radius } => {

@@ -62,10 +62,8 @@ impl Wall {
                 Some((sense > 0.0) != (side == FluidSide::Outside))
             }
         };
-        Ok(match side {
-            Some(true) => facets.flipped(),
-            _ => facets,
-        })
+        let flipped = side == Some(true);
+        Ok(if flipped { facets.flipped() } else { facets })
     }
 }
 
@@ -77,11 +75,11 @@ pub fn sense(facets: &Facets) -> f64 {
 
 /// The largest openings in words, in the unit of the file.
 pub(crate) fn openings(all: &[Opening]) -> String {
-    let told = all.iter().take(TOLD).map(|o| {
+    let opening = |o: &Opening| {
         let (edges, size, centre) = (o.edges, number::plain(o.size), point(&o.centre));
         format!("{edges} edges, {size} across, around {centre}")
-    });
-    let told: Vec<String> = told.collect();
+    };
+    let told: Vec<String> = all.iter().take(TOLD).map(opening).collect();
     let more = if all.len() > TOLD { "; …" } else { "" };
     format!("{} openings ({}{more})", all.len(), told.join("; "))
 }

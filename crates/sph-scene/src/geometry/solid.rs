@@ -166,12 +166,8 @@ pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut corners = Vec::with_capacity(12);
     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        for k in 0..3 {
-            let mut x = [0.0; 3];
-            x[(k + 1) % 3] = a;
-            x[(k + 2) % 3] = b * golden;
-            corners.push(x);
-        }
+        let (a, b) = (a, b * golden);
+        corners.extend([[0.0, a, b], [b, 0.0, a], [a, b, 0.0]]);
     }
     let mut facets = Facets::default();
     let mut known: HashMap<Vec<(usize, usize)>, u32> = HashMap::new();
@@ -180,10 +176,8 @@ pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
             let mut weights: Vec<_> = face.into_iter().zip([parts - i - j, i, j]).collect();
             weights.retain(|(_, w)| *w > 0);
             weights.sort_unstable();
-            let flat: [f64; 3] = std::array::from_fn(|k| {
-                let along = weights.iter().map(|(n, w)| *w as f64 * corners[*n][k]);
-                along.sum()
-            });
+            let along = |(n, w): &(usize, usize), k: usize| *w as f64 * corners[*n][k];
+            let flat: [f64; 3] = std::array::from_fn(|k| weights.iter().map(|w| along(w, k)).sum());
             *known.entry(weights).or_insert_with(|| {
                 let away = dot(&flat, &flat).sqrt();
                 let x = std::array::from_fn(|k| centre[k] + radius * flat[k] / away);
@@ -250,14 +244,8 @@ mod tests {
         closed(&ball, 4.0 / 3.0 * PI * 8.0, 0.02);
         assert_eq!(ball.triangles.len(), 20 * 144);
         assert_eq!(ball.points.len(), 10 * 144 + 2);
-        let corners = [
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [2.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 2.0],
-            [0.0, 2.0],
-        ];
+        let low = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
+        let corners = [low, [[1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]].concat();
         let back: Vec<_> = corners.iter().rev().copied().collect();
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             for ends in [[0.5, 2.5], [2.5, 0.5]] {

@@ -59,11 +59,8 @@ pub struct Refused {
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, diagnostic) in self.diagnostics.iter().enumerate() {
-            let line = if k == 0 { "" } else { "\n" };
-            write!(f, "{line}{diagnostic}")?;
-        }
-        Ok(())
+        let lines: Vec<String> = self.diagnostics.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\n"))
     }
 }
 
