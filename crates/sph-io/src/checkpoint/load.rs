@@ -15,8 +15,7 @@ use crate::error::{IoError, Result};
 use crate::files::folder::readable;
 
 impl Checkpoint {
-    /// Reads the checkpoint at `path`; any damage is an error that names the
-    /// check failed.
+    /// Reads the checkpoint at `path`; any damage is an error that names the check failed.
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let failed = |e| IoError::read(path, e);

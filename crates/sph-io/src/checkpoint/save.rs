@@ -10,8 +10,7 @@ use crate::error::{IoError, Result};
 use crate::files::atomic::{Durability, write_atomic};
 
 impl Checkpoint {
-    /// Writes the checkpoint to `path`, all or nothing, and waits until it is
-    /// on the disk.
+    /// Writes the checkpoint to `path`, all or nothing, and waits until it is on the disk.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let shapes = self.shapes().map_err(|p| IoError::input(path, p))?;

@@ -36,8 +36,7 @@ impl Colour {
     }
 }
 
-/// Distinct colours for the series of a plot (Okabe and Ito, safe for the
-/// colour-blind).
+/// Distinct colours for the series of a plot (Okabe and Ito, safe for the colour-blind).
 pub(crate) const SERIES: [Colour; 7] = [
     Colour::hex(0x0072b2),
     Colour::hex(0xd55e00),

@@ -29,21 +29,15 @@ impl ColourBar<'_> {
     /// Draws the bar beside `frame`, as high as that.
     pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
-        let bar = Rect {
-            left: crisp(frame.right + size) - 0.5,
-            right: crisp(frame.right + 2.1 * size) - 0.5,
-            top: crisp(frame.top) + if self.beyond[1] { 0.9 * size } else { 0.0 },
-            bottom: crisp(frame.bottom) - if self.beyond[0] { 0.9 * size } else { 0.0 },
-        };
+        let [below, above] = self.beyond.map(|tip| if tip { 0.9 * size } else { 0.0 });
+        let [left, right] = [1.0, 2.1].map(|at| crisp(frame.right + at * size) - 0.5);
+        let (top, bottom) = (crisp(frame.top) + above, crisp(frame.bottom) - below);
+        let bar = Rect::between([left, top], [right, bottom]);
         let rows = bar.height().round() as usize;
         for row in 0..rows {
             let top = bar.top + row as f64;
             let at = 1.0 - (row as f64 + 0.5) / rows as f64;
-            let strip = Rect {
-                top,
-                bottom: top + 1.0,
-                ..bar
-            };
+            let strip = Rect::between([bar.left, top], [bar.right, top + 1.0]);
             on.block(strip, self.colours.at(at));
         }
         self.draw_outline(on, &bar);
@@ -72,12 +66,8 @@ impl ColourBar<'_> {
         let middle = (bar.left + bar.right) / 2.0;
         let [a, b, c, d] = bar.corners();
         // One pixel into the bar, so that no seam shows.
-        let [a1, b1, c1, d1] = Rect {
-            top: bar.top + 1.0,
-            bottom: bar.bottom - 1.0,
-            ..*bar
-        }
-        .corners();
+        let upper = [bar.left, bar.top + 1.0];
+        let [a1, b1, c1, d1] = Rect::between(upper, [bar.right, bar.bottom - 1.0]).corners();
         let below = [middle, bar.bottom + tip];
         let above = [middle, bar.top - tip];
         let mut outline = vec![a];
@@ -123,12 +113,8 @@ impl ClassBar<'_> {
         let size = self.size;
         for (k, name) in self.names.iter().enumerate() {
             let top = frame.top + 1.6 * k as f64 * size;
-            let block = Rect {
-                left: frame.right + 0.8 * size,
-                right: frame.right + 1.8 * size,
-                top,
-                bottom: top + size,
-            };
+            let right = [frame.right + 1.8 * size, top + size];
+            let block = Rect::between([frame.right + 0.8 * size, top], right);
             on.block(block, SERIES[k % SERIES.len()]);
             on.line(&block.outline(), Pen::solid(Colour::INK, size / 16.0));
             let at = [block.right + 0.4 * size, block.bottom - 0.14 * size];

@@ -97,14 +97,19 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// One from the corner on.
-    pub(crate) fn sized([width, height]: [u32; 2]) -> Self {
+    /// One from its upper left to its lower right corner.
+    pub(crate) fn between([left, top]: Spot, [right, bottom]: Spot) -> Self {
         Self {
-            left: 0.0,
-            top: 0.0,
-            right: f64::from(width),
-            bottom: f64::from(height),
+            left,
+            top,
+            right,
+            bottom,
         }
+    }
+
+    /// One from the corner on.
+    pub(crate) fn sized(sides: [u32; 2]) -> Self {
+        Self::between([0.0; 2], sides.map(f64::from))
     }
 
     pub(crate) fn width(&self) -> f64 {

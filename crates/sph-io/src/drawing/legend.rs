@@ -40,12 +40,7 @@ fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
     let bottoms = [frame.top + gap + height, frame.bottom - gap];
     [0, 1, 2, 3].map(|i| {
         let (right, bottom) = (rights[i % 2], bottoms[i / 2]);
-        Rect {
-            left: right - width,
-            top: bottom - height,
-            right,
-            bottom,
-        }
+        Rect::between([right - width, bottom - height], [right, bottom])
     })
 }
 

@@ -206,12 +206,7 @@ impl<'a> Picture<'a> {
                 [lo - spare, hi + spare]
             };
             Axes {
-                frame: Rect {
-                    left,
-                    top,
-                    right: left + wide,
-                    bottom: top + high,
-                },
+                frame: Rect::between([left, top], [left + wide, top + high]),
                 x: axis(fitted(window[0], wide), "x [m]"),
                 y: axis(fitted(window[1], high), upwards),
                 size,
@@ -268,12 +263,7 @@ impl<'a> Picture<'a> {
             let frame = &axes.frame;
             let x = (x + 0.3 * size).min(frame.right - wide).max(frame.left);
             let y = (y - 0.3 * size).clamp(frame.top + size, frame.bottom);
-            let paper = Rect {
-                left: x,
-                top: y - 0.85 * size,
-                right: x + wide,
-                bottom: y + 0.25 * size,
-            };
+            let paper = Rect::between([x, y - 0.85 * size], [x + wide, y + 0.25 * size]);
             canvas.area(&paper.corners(), Fill::new(Colour::WHITE, 0.7));
             canvas.text([x, y], text, Lettering::new(size, Anchor::Start));
         }

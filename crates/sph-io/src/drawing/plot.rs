@@ -1,7 +1,6 @@
 //! Lines, markers and bands over two axes, alone or side by side, as PNG or SVG.
 //!
-//! Meant for probes against reference data and for work–precision plots, not
-//! for publication: everything is automatic.
+//! Meant for probes against reference data and for work–precision plots, not for publication: everything is automatic.
 
 use std::path::Path;
 
@@ -117,13 +116,9 @@ impl Plot {
         let room = y.ticks(8).factor.map_or(0.0, |_| 0.9);
         let top = place.top + top + room * LETTERS;
         let bottom = place.bottom - 3.6 * LETTERS;
+        let left = place.left + left_room(&y, bottom - top, LETTERS);
         Axes {
-            frame: Rect {
-                left: place.left + left_room(&y, bottom - top, LETTERS),
-                top,
-                right: place.right - 1.6 * LETTERS,
-                bottom,
-            },
+            frame: Rect::between([left, top], [place.right - 1.6 * LETTERS, bottom]),
             x,
             y,
             size: LETTERS,
@@ -194,8 +189,7 @@ impl Panels {
     /// Writes the picture as vectors if the name ends in `.svg`, else as PNG.
     ///
     /// # Errors
-    /// If there are no panels or too many, the series of one do not fit together, or the file
-    /// cannot be written.
+    /// If there are no panels or too many, the series of one do not fit together, or the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         if self.0.is_empty() || self.0.len() > MOST {

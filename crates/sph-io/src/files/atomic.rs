@@ -1,10 +1,8 @@
 //! Files that are either the old one or the new one, never half of each.
 //!
-//! Content goes to a temporary name in the same folder, which is renamed over
-//! the target once complete. If anything fails before (full disk, a value that
-//! cannot be written, a panic) the temporary is removed and the target keeps
-//! its former content. Only a killed process can leave a temporary behind;
-//! [`sweep_temporaries`] removes those.
+//! Content goes to a temporary name in the same folder, which is renamed over the target once complete. If anything
+//! fails before (full disk, a value that cannot be written, a panic) the temporary is removed and the target keeps its
+//! former content. Only a killed process can leave a temporary behind; [`sweep_temporaries`] removes those.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -89,8 +87,7 @@ pub fn write_json(path: impl AsRef<Path>, value: &(impl Serialize + ?Sized)) -> 
 
 /// Removes temporaries that a killed process left in `folder` and in the folders directly below it; returns how many.
 ///
-/// Call it when a run takes possession of its folder, not while another
-/// process writes there.
+/// Call it when a run takes possession of its folder, not while another process writes there.
 pub fn sweep_temporaries(folder: impl AsRef<Path>) -> Result<usize> {
     swept(folder.as_ref(), true)
 }
@@ -121,12 +118,8 @@ fn is_temporary(name: &str) -> bool {
         return true;
     }
     let hidden = name.strip_prefix('.');
-    let mark = hidden.and_then(|rest| {
-        rest.strip_suffix(".tmp")?
-            .rsplit_once('.')?
-            .1
-            .split_once('-')
-    });
+    let rest = hidden.and_then(|rest| rest.strip_suffix(".tmp"));
+    let mark = rest.and_then(|rest| rest.rsplit_once('.')?.1.split_once('-'));
     mark.is_some_and(|(pid, serial)| digits(pid) && digits(serial))
 }
 

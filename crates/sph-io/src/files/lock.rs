@@ -1,8 +1,7 @@
 //! One writer per folder.
 //!
-//! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it,
-//! however that ends, so that a stale one locks no folder. The content of the file names
-//! its holder.
+//! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it, however that
+//! ends, so that a stale one locks no folder. The content of the file names its holder.
 
 use std::fmt::{self, Write as _};
 use std::fs::{self, File, OpenOptions, TryLockError};

@@ -9,9 +9,8 @@ use crate::files::atomic::write_whole;
 
 /// Writes a CSV file with a header `time[s],dt[s],…`, one flushed row at a time.
 ///
-/// Reals are written in the shortest form that reads back to the same bits
-/// (but for the payload of a NaN). A row that cannot be written whole is taken
-/// back, so that the file always ends after a row.
+/// Reals are written in the shortest form that reads back to the same bits (but for the payload of a NaN). A row that
+/// cannot be written whole is taken back, so that the file always ends after a row.
 #[derive(Debug)]
 pub struct SeriesWriter {
     path: PathBuf,
@@ -33,8 +32,7 @@ fn leads_elsewhere(path: &Path) -> bool {
 }
 
 impl SeriesWriter {
-    /// Starts a series with columns given as (name, unit); an empty unit
-    /// stands for a pure number.
+    /// Starts a series with columns given as (name, unit); an empty unit stands for a pure number.
     ///
     /// ```
     /// # use sph_io::{SeriesWriter, read_table};
@@ -115,8 +113,7 @@ impl SeriesWriter {
         self.append(&line)
     }
 
-    /// Length of the file in bytes; give it to
-    /// [`open_truncated`](Self::open_truncated) to continue from here.
+    /// Length of the file in bytes; give it to [`open_truncated`](Self::open_truncated) to continue from here.
     pub fn position(&self) -> u64 {
         self.position
     }

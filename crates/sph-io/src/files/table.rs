@@ -1,10 +1,9 @@
 //! Reading tables of numbers, such as reference data.
 //!
-//! A table is text with one row per line, cells separated by commas (or
-//! semicolons, or tabs, whichever the first line uses). Blank lines and lines
-//! starting with `#` are skipped, spaces around cells ignored. The first line
-//! names the columns, with a unit in brackets if known: `time[s]`; if it holds
-//! only numbers, the columns are named `column1`, `column2`, ….
+//! A table is text with one row per line, cells separated by commas (or semicolons, or tabs, whichever the first line
+//! uses). Blank lines and lines starting with `#` are skipped, spaces around cells ignored. The first line names the
+//! columns, with a unit in brackets if known: `time[s]`; if it holds only numbers, the columns are named `column1`,
+//! `column2`, ….
 
 use std::fs;
 use std::path::Path;
@@ -67,8 +66,7 @@ pub fn read_table(path: impl AsRef<Path>) -> Result<Table> {
     parse(&text(path)?, path, None)
 }
 
-/// Reads only the columns `names` of `path`, in that order; cells of other
-/// columns may hold anything or nothing.
+/// Reads only the columns `names` of `path`, in that order; cells of other columns may hold anything or nothing.
 pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
     let path = path.as_ref();
     parse(&text(path)?, path, Some(names))
@@ -137,10 +135,8 @@ fn parse(text: &str, path: &Path, names: Option<&[&str]>) -> Result<Table> {
         if found != wanted {
             let more = if found > COLUMNS { "more than " } else { "" };
             let found = found.min(COLUMNS);
-            return Err(fault(
-                line,
-                format!("{more}{found} cells for {wanted} columns"),
-            ));
+            let problem = format!("{more}{found} cells for {wanted} columns");
+            return Err(fault(line, problem));
         }
         for (&i, column) in chosen.iter().zip(&mut columns) {
             let (cell, number, name) = (&cells[i], i + 1, &column.name);
@@ -217,10 +213,8 @@ mod tests {
         assert_eq!(table.columns[0].values, [0.16, 0.19]);
         assert_eq!(table.columns[1].values, [100.0, 200.0]);
         let error = read(text, Some(&["Cd"])).unwrap_err().to_string();
-        assert!(
-            error.contains("`Cd`") && error.contains("`study`"),
-            "{error}"
-        );
+        let named = error.contains("`Cd`") && error.contains("`study`");
+        assert!(named, "{error}");
     }
 
     #[test]
@@ -228,10 +222,8 @@ mod tests {
         let empty = complaint("# c\nt,p\n0,1\n2,\n");
         assert_eq!(empty, "ref.csv, line 4: column 2 `p` is empty");
         let word = complaint("t,p\nx,1\n");
-        assert_eq!(
-            word,
-            "ref.csv, line 2: column 1 `t` is not a number but `x`"
-        );
+        let wanted = "ref.csv, line 2: column 1 `t` is not a number but `x`";
+        assert_eq!(word, wanted);
         assert!(complaint("t,p\n0,1,2\n").contains("line 2: 3 cells for 2 columns"));
         assert!(complaint("# nothing\n\n").contains("no rows"));
         let absent = read_table("/no/such/file.csv").unwrap_err();

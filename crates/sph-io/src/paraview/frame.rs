@@ -1,7 +1,6 @@
 //! One output time as plain data: points, cells and named fields.
 //!
-//! Everything may be borrowed, so that writing copies nothing that the solver
-//! already holds in the right shape.
+//! Everything may be borrowed, so that writing copies nothing that the solver already holds in the right shape.
 
 use std::borrow::Cow;
 
@@ -206,9 +205,9 @@ impl Piece<'_> {
             let tuples = if at_points { points } else { cells };
             let (found, per) = (field.data.len(), field.components);
             if per == 0 || tuples.checked_mul(per) != Some(found) {
+                let wanted = format!("expected {tuples} tuples of {per}");
                 return Err(format!(
-                    "field `{name}` of piece `{piece}` holds {found} numbers, \
-                     expected {tuples} tuples of {per}"
+                    "field `{name}` of piece `{piece}` holds {found} numbers, {wanted}"
                 ));
             }
         }
@@ -233,10 +232,8 @@ mod tests {
     fn misfits_are_named() {
         let short = FieldData::scalar("pressure", "Pa", vec![0.0; 2]);
         let said = piece(Cells::Vertices, vec![short]).check().unwrap_err();
-        assert!(
-            said.contains("`pressure`") && said.contains("3 tuples"),
-            "{said}"
-        );
+        let named = said.contains("`pressure`") && said.contains("3 tuples");
+        assert!(named, "{said}");
 
         let id = FieldData::integer("id", vec![1, 2, 3]);
         let said = piece(Cells::Vertices, vec![id.clone(), id]).check();

@@ -1,9 +1,8 @@
 //! ParaView's `.pvd`: the list of files that make a time series.
 //!
-//! The list is rewritten all or nothing after every output, so that a running
-//! or killed job can be opened at any time. Its data files lie in a folder of
-//! the same stem beside it, and paths in it are relative, so that both can be
-//! moved together.
+//! The list is rewritten all or nothing after every output, so that a running or killed job can be opened at any time.
+//! Its data files lie in a folder of the same stem beside it, and paths in it are relative, so that both can be moved
+//! together.
 
 use std::fs;
 use std::io;

@@ -1,11 +1,9 @@
 //! ParaView's `.vtu`: an unstructured grid as XML with raw, compressed arrays.
 //!
-//! Arrays are appended after the XML in little-endian order, cut into blocks
-//! of 1 MiB, each compressed by zlib. An array starts with `UInt64` numbers:
-//! count of blocks, block size, size of a shorter last block (0 if none), and
-//! the compressed size of every block. Reals keep their 64 bits, the simulated
-//! time is in the field data as `TimeValue`, and units are attached as VTK's
-//! information key `UNITS_LABEL`, so that names stay plain words.
+//! Arrays are appended after the XML in little-endian order, cut into blocks of 1 MiB, each compressed by zlib. An
+//! array starts with `UInt64` numbers: count of blocks, block size, size of a shorter last block (0 if none), and the
+//! compressed size of every block. Reals keep their 64 bits, the simulated time is in the field data as `TimeValue`,
+//! and units are attached as VTK's information key `UNITS_LABEL`, so that names stay plain words.
 
 use std::io::Write as _;
 use std::path::Path;

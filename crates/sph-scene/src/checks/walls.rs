@@ -55,12 +55,9 @@ fn condition(wall: &Wall, check: &mut TableCheck<'_>) {
     let partial = wall.condition == SlipCondition::PartialSlip;
     let message = "`partial-slip` needs the key `slip_length`";
     check.refuse(partial && wall.slip_length.is_none(), "condition", message);
+    let misplaced = wall.slip_length.is_some() && !partial;
     let message = "a slip length belongs to `condition = \"partial-slip\"`";
-    check.refuse(
-        !partial && wall.slip_length.is_some(),
-        "slip_length",
-        message,
-    );
+    check.refuse(misplaced, "slip_length", message);
     let coulomb = wall.condition == SlipCondition::Coulomb;
     let coefficient = wall.friction_coefficient.is_some();
     let message = "`coulomb` needs the key `friction_coefficient`";
@@ -101,12 +98,8 @@ fn companions(wall: &Wall, check: &mut TableCheck<'_>) {
     check.refuse(wall.closed && !line, "closed", message);
     let message = "only a `polyline` has a thickness";
     check.refuse(wall.thickness.is_some() && !line, "thickness", message);
-    let message = "only a `box` has faces to leave out";
-    check.refuse(
-        wall.bounds.is_none() && !wall.open.is_empty(),
-        "open",
-        message,
-    );
+    let whole = wall.bounds.is_some() || wall.open.is_empty();
+    check.refuse(!whole, "open", "only a `box` has faces to leave out");
     let message =
         "the unit of coordinates belongs to a `file`; numbers of a scene carry their own: \"5 mm\"";
     check.refuse(wall.unit.is_some() && !file, "unit", message);
@@ -138,11 +131,8 @@ fn companions(wall: &Wall, check: &mut TableCheck<'_>) {
 
 fn polyline(wall: &Wall, points: &[Vec<f64>], check: &mut TableCheck<'_>) {
     let plate = wall.closed && wall.thickness.is_some();
-    check.refuse(
-        plate,
-        "thickness",
-        "a closed wall has one face and no thickness",
-    );
+    let message = "a closed wall has one face and no thickness";
+    check.refuse(plate, "thickness", message);
     let few = wall.closed && points.len() < 3;
     if check.refuse(few, "polyline", "a closed wall needs at least 3 corners") {
         return;

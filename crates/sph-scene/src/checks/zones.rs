@@ -56,11 +56,8 @@ pub(crate) fn outlet(outlet: &Outlet, mut check: TableCheck<'_>) {
     if let (Some(corners), None) = (&outlet.bounds, outlet.beyond) {
         check.corners("box", corners);
     }
-    let of_plane = [
-        ("axis", outlet.axis.is_some()),
-        ("direction", outlet.direction.is_some()),
-    ];
-    for (key, given) in of_plane {
+    let (axis, direction) = (outlet.axis.is_some(), outlet.direction.is_some());
+    for (key, given) in [("axis", axis), ("direction", direction)] {
         let misplaced = given && outlet.bounds.is_some();
         check.refuse(misplaced, key, "it belongs to `beyond`");
     }

@@ -18,8 +18,7 @@ const SHARES: [f64; 2] = [0.1, 0.8];
 
 /// Lines of the text of a drawing called `name`, upright, in user units; curves within `tolerance` user units.
 ///
-/// The origin is the lower left corner of the `viewBox`, else of the width and height, else the
-/// upper left corner.
+/// The origin is the lower left corner of the `viewBox`, else of the width and height, else the upper left corner.
 pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>, String> {
     let told = |why: String| format!("`{name}`: {why}");
     let options = ParsingOptions {

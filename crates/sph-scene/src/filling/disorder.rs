@@ -7,8 +7,7 @@ use crate::geometry::periodic_place::wrapped;
 
 /// Displaces every particle along each axis by at most `fraction` of the spacing, at random.
 ///
-/// The same seed gives the same displacements. A particle that leaves a periodic box enters it
-/// on the other side.
+/// The same seed gives the same displacements. A particle that leaves a periodic box enters it on the other side.
 pub fn disturb<const D: usize>(
     bodies: &mut [BodyParticles<D>],
     spacing: f64,
@@ -26,8 +25,7 @@ pub fn disturb<const D: usize>(
     }
 }
 
-/// A random velocity, along each axis at most `amplitude`, that depends on the particle's number and the
-/// seed alone.
+/// A random velocity, along each axis at most `amplitude`, that depends on the particle's number and the seed alone.
 pub fn noise<const D: usize>(particle: u32, amplitude: f64, seed: u64) -> [f64; D] {
     // The numbers of a seed that displacements do not use.
     let mut random = SplitMix(SplitMix(!seed).next() ^ u64::from(particle));

@@ -17,14 +17,12 @@ pub struct BodyParticles<const D: usize> {
 
 /// Positions of particles for bodies on square lattices of one spacing, m.
 ///
-/// Every body has its own lattice, see [`Offset`]. Along a periodic axis (lower and upper bound,
-/// m) that a body fills entirely, the lattice is the period divided evenly, and the two ends
-/// are no surfaces. Where two bodies touch, the surface that they share is no surface either:
-/// a node near it is kept unless another particle is nearer than three quarters of a spacing, so
-/// that a row neither is missing from an interface nor stands there twice.
+/// Every body has its own lattice, see [`Offset`]. Along a periodic axis (lower and upper bound, m) that a body fills
+/// entirely, the lattice is the period divided evenly, and the two ends are no surfaces. Where two bodies touch, the
+/// surface that they share is no surface either: a node near it is kept unless another particle is nearer than three
+/// quarters of a spacing, so that a row neither is missing from an interface nor stands there twice.
 ///
-/// The bodies must not overlap, and the caller has asked [`estimate`](crate::estimate) whether
-/// there is room.
+/// The bodies must not overlap, and the caller has asked [`estimate`](crate::estimate) whether there is room.
 pub fn fill<const D: usize>(
     bodies: &[Region<D>],
     spacing: f64,
@@ -93,8 +91,7 @@ pub enum Offset {
     /// Nodes at whole spacings: a row stands one spacing off the body's side. A node is kept if
     /// it is at least half a spacing inside.
     None,
-    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept
-    /// if it is inside.
+    /// Nodes at half spacings: a row stands half a spacing off the body's side. A node is kept if it is inside.
     Half,
 }
 

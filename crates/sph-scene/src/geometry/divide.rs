@@ -42,10 +42,8 @@ mod tests {
             let n = sides(radius) as f64;
             let sagitta = radius * (1.0 - (PI / n).cos());
             let edge = 2.0 * radius * (PI / n).sin();
-            assert!(
-                sagitta < 0.0201 && edge > 0.499,
-                "{radius}: {sagitta} {edge}"
-            );
+            let round = sagitta < 0.0201 && edge > 0.499;
+            assert!(round, "{radius}: {sagitta} {edge}");
         }
         assert_eq!(sides(40.0), 251);
         assert_eq!(sides(0.1), 6);

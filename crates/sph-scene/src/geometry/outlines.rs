@@ -19,10 +19,8 @@ pub struct Line {
 
 impl Line {
     pub(crate) fn closed(points: Vec<[f64; 2]>) -> Self {
-        Line {
-            points,
-            closed: true,
-        }
+        let closed = true;
+        Line { points, closed }
     }
 
     /// The same line with the fluid on the other side.
@@ -57,10 +55,9 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
     let line = |begin: usize| {
         let count = (begin..begin + 4).take_while(|&k| kept(k)).count();
         let corner = |k: usize| corners[k % 4];
-        Line {
-            points: (begin..=begin + count).map(corner).collect(),
-            closed: false,
-        }
+        let points = (begin..=begin + count).map(corner).collect();
+        let closed = false;
+        Line { points, closed }
     };
     begins.map(line).collect()
 }

@@ -114,8 +114,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
         }
     }
 
-    /// Distance from the sides of a polygon in the plane of two axes that are no ends of the
-    /// period, positive inside.
+    /// Distance from the sides of a polygon in the plane of two axes that are no ends of the period, positive inside.
     fn across(&self, polygon: &Polygon, spans: [bool; D], axes: [usize; 2], x: &[f64; D]) -> f64 {
         let [lo, hi] = sph_core::bounds(polygon.points().iter().copied());
         let sealed = |a: [f64; 2], b: [f64; 2]| {
@@ -145,8 +144,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
     }
 }
 
-/// Axes along which a shape fills the period; a round one never does, and a cylinder only along its
-/// own axis.
+/// Axes along which a shape fills the period; a round one never does, and a cylinder only along its own axis.
 pub(crate) fn spans<const D: usize>(
     shape: &Shape<D>,
     spacing: f64,

@@ -136,14 +136,10 @@ fn folded(first: Edge, second: Edge, in_order: bool) -> Option<[f64; 2]> {
 fn meet(p: Edge, q: Edge) -> Option<[f64; 2]> {
     let (d1, d2) = (cross(q.0, q.1, p.0), cross(q.0, q.1, p.1));
     let (d3, d4) = (cross(p.0, p.1, q.0), cross(p.0, p.1, q.1));
-    if ((d1 > 0.0 && d2 < 0.0) || (d1 < 0.0 && d2 > 0.0))
-        && ((d3 > 0.0 && d4 < 0.0) || (d3 < 0.0 && d4 > 0.0))
-    {
+    let opposite = |a: f64, b: f64| (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0);
+    if opposite(d1, d2) && opposite(d3, d4) {
         let t = d1 / (d1 - d2);
-        return Some([
-            p.0[0] + t * (p.1[0] - p.0[0]),
-            p.0[1] + t * (p.1[1] - p.0[1]),
-        ]);
+        return Some([0, 1].map(|k| p.0[k] + t * (p.1[k] - p.0[k])));
     }
     let on = |s: Edge, x: [f64; 2]| {
         (0..2).all(|k| s.0[k].min(s.1[k]) <= x[k] && x[k] <= s.0[k].max(s.1[k]))

@@ -29,8 +29,7 @@ impl<const D: usize> Region<D> {
         })
     }
 
-    /// The region of a body that fills the walls within these bounds, m; or the key that is
-    /// wrong and why.
+    /// The region of a body that fills the walls within these bounds, m; or the key that is wrong and why.
     pub(crate) fn enclosed(
         body: &Body,
         bounds: Option<([f64; D], [f64; D])>,
@@ -95,15 +94,10 @@ mod tests {
 
     #[test]
     fn a_cut_takes_away_and_bounds_what_is_left() {
+        let (lo, hi, centre, radius) = ([0.0; 2], [4.0; 2], [2.0; 2], 1.0);
         let region = Region {
-            base: Shape::Cuboid {
-                lo: [0.0; 2],
-                hi: [4.0; 2],
-            },
-            cuts: vec![Shape::Ball {
-                centre: [2.0; 2],
-                radius: 1.0,
-            }],
+            base: Shape::Cuboid { lo, hi },
+            cuts: vec![Shape::Ball { centre, radius }],
         };
         assert_eq!(region.depth(&[2.0, 2.0]), -1.0);
         assert_eq!(region.depth(&[2.0, 3.25]), 0.25);
@@ -118,20 +112,13 @@ mod tests {
             wavelength: Some(1.0),
             phase: 0.0,
         };
+        let side = |surface: LevelSurface, above: bool| Shape::Side { surface, above };
+        let (lo, hi) = ([0.0; 2], [1.0, 4.0]);
         let region = Region::<2> {
-            base: Shape::Cuboid {
-                lo: [0.0; 2],
-                hi: [1.0, 4.0],
-            },
+            base: Shape::Cuboid { lo, hi },
             cuts: vec![
-                Shape::Side {
-                    surface: surface(1.0, 0.0),
-                    above: false,
-                },
-                Shape::Side {
-                    surface: surface(3.0, 0.1),
-                    above: true,
-                },
+                side(surface(1.0, 0.0), false),
+                side(surface(3.0, 0.1), true),
             ],
         };
         assert_eq!(region.bounds(), ([0.0, 1.0], [1.0, 3.1]));

@@ -72,8 +72,7 @@ pub enum Shape<const D: usize> {
 impl<const D: usize> Shape<D> {
     /// Distance of a point from the surface, m, positive inside and negative outside.
     ///
-    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in
-    /// size, never in sign.
+    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in size, never in sign.
     pub fn depth(&self, x: &[f64; D]) -> f64 {
         match self {
             Shape::Cuboid { lo, hi } => {
@@ -209,35 +208,25 @@ mod tests {
 
     #[test]
     fn depths_are_distances_with_a_sign() {
-        let cuboid = Shape::Cuboid {
-            lo: [0.0; 3],
-            hi: [2.0, 4.0, 6.0],
-        };
+        let (lo, hi) = ([0.0; 3], [2.0, 4.0, 6.0]);
+        let cuboid = Shape::Cuboid { lo, hi };
         assert_eq!(cuboid.depth(&[0.5, 2.0, 3.0]), 0.5);
         assert_eq!(cuboid.depth(&[5.0, 8.0, 3.0]), -5.0);
-        let ball = Shape::Ball {
-            centre: [1.0, 1.0],
-            radius: 2.0,
-        };
+        let (centre, radius) = ([1.0, 1.0], 2.0);
+        let ball = Shape::Ball { centre, radius };
         assert_eq!(ball.depth(&[1.0, 2.0]), 1.0);
         assert_eq!(ball.bounds(), ([-1.0; 2], [3.0; 2]));
     }
 
     #[test]
     fn solids_have_exact_depths_inside_and_bounds() {
-        let rod = Shape::Cylinder {
-            from: [0.0; 3],
-            to: [0.0, 4.0, 0.0],
-            radius: 1.0,
-        };
+        let (from, to, radius) = ([0.0; 3], [0.0, 4.0, 0.0], 1.0);
+        let rod = Shape::Cylinder { from, to, radius };
         assert_eq!(rod.depth(&[0.5, 2.0, 0.0]), 0.5);
         assert_eq!(rod.depth(&[4.0, 8.0, 0.0]), -5.0);
         assert_eq!(rod.bounds(), ([-1.0, 0.0, -1.0], [1.0, 4.0, 1.0]));
-        let tip = Shape::Cone {
-            base: [0.0; 3],
-            apex: [0.0, 0.0, 4.0],
-            radius: 3.0,
-        };
+        let (base, apex, radius) = ([0.0; 3], [0.0, 0.0, 4.0], 3.0);
+        let tip = Shape::Cone { base, apex, radius };
         assert!((tip.depth(&[0.0, 0.0, 1.5]) - 1.5).abs() < 1e-12);
         assert!((tip.depth(&[3.0, 0.0, 4.0]) + 2.4).abs() < 1e-12);
         assert_eq!(tip.bounds(), ([-3.0, -3.0, 0.0], [3.0, 3.0, 4.0]));

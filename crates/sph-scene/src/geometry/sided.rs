@@ -6,8 +6,7 @@ use sph_core::{SceneProblem, Winding, number};
 use crate::geometry::vector::point;
 use crate::{FluidSide, Wall};
 
-/// Open surfaces of a smaller [`sense`] than this have no inside: a flat plate has 0, a cube without a
-/// lid 0.4.
+/// Open surfaces of a smaller [`sense`] than this have no inside: a flat plate has 0, a cube without a lid 0.4.
 const NO_INSIDE: f64 = 0.02;
 /// Number of openings in a message.
 const TOLD: usize = 3;

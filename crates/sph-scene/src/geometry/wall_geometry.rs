@@ -73,8 +73,7 @@ impl Wall {
 
     /// The triangles of a wall in space, right-hand normals into the fluid; files are read.
     ///
-    /// Plane faces have as few triangles as possible. `place` is the path of the wall in the
-    /// scene: `wall.tank`.
+    /// Plane faces have as few triangles as possible. `place` is the path of the wall in the scene: `wall.tank`.
     ///
     /// # Errors
     /// If a file cannot be read or holds no such geometry, or the size does not fit the spacing.
@@ -135,10 +134,8 @@ impl Wall {
     fn drawn(&self, spacing: f64) -> Result<Vec<Line>, String> {
         let corners = |list: &[Vec<f64>]| list.iter().map(|p| array(p)).collect::<Vec<[f64; 2]>>();
         if let Some(points) = &self.polyline {
-            return Ok(vec![Line {
-                points: corners(points),
-                closed: self.closed,
-            }]);
+            let (points, closed) = (corners(points), self.closed);
+            return Ok(vec![Line { points, closed }]);
         }
         if let Some(points) = &self.polygon {
             return Ok(vec![Line::closed(corners(points))]);
@@ -190,12 +187,8 @@ impl Wall {
             let across = 3 - wedge.rise.axis() - up.axis();
             let axis = [Axis::X, Axis::Y, Axis::Z][across];
             let ends = [wedge.lo[across], wedge.hi[across]];
-            return Some(solid::extrusion(
-                &wedge.plane(Face::ZPlus),
-                axis,
-                ends,
-                false,
-            ));
+            let plane = wedge.plane(Face::ZPlus);
+            return Some(solid::extrusion(&plane, axis, ends, false));
         }
         let whole = self.extrusion.as_ref()?;
         let e = &whole.shape;

@@ -10,33 +10,21 @@ pub(crate) fn convert(scene: &mut Table) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     let walls = scene.get_mut("wall").and_then(Value::as_table_mut);
     for (name, wall) in walls.into_iter().flatten() {
-        courses(
-            wall.get_mut("motion"),
-            &format!("wall.{name}.motion"),
-            &mut found,
-        );
+        let place = format!("wall.{name}.motion");
+        courses(wall.get_mut("motion"), &place, &mut found);
     }
     if let Some(numerics) = scene.get_mut("numerics") {
         courses(numerics.get_mut("frame"), "numerics.frame", &mut found);
-        let place = "numerics.gravity_over_time";
-        course(
-            numerics.get_mut("gravity_over_time"),
-            "m/s²",
-            place,
-            &mut found,
-        );
+        let gravity = numerics.get_mut("gravity_over_time");
+        course(gravity, "m/s²", "numerics.gravity_over_time", &mut found);
     }
     found
 }
 
 fn courses(motion: Option<&mut Value>, place: &str, found: &mut Vec<SceneProblem>) {
     let Some(motion) = motion else { return };
-    course(
-        motion.get_mut("rotate"),
-        "rad",
-        &format!("{place}.rotate"),
-        found,
-    );
+    let turning = format!("{place}.rotate");
+    course(motion.get_mut("rotate"), "rad", &turning, found);
     let place = format!("{place}.translate");
     match motion.get_mut("translate") {
         Some(Value::Array(all)) if all.len() != 1 => {

@@ -117,10 +117,8 @@ impl BodyShape {
             return Some(Shape::Polygon(polygon(points)));
         }
         if let Some(e) = &self.ellipse {
-            return Some(Shape::Ellipse {
-                centre: array(&e.centre),
-                semi_axes: e.semi_axes,
-            });
+            let (centre, semi_axes) = (array(&e.centre), e.semi_axes);
+            return Some(Shape::Ellipse { centre, semi_axes });
         }
         if let Some(c) = &self.cylinder {
             let (from, to, radius) = (array(&c.from), array(&c.to), c.radius);
@@ -138,10 +136,8 @@ impl BodyShape {
             });
         }
         let round = self.disc.as_ref().or(self.sphere.as_ref())?;
-        Some(Shape::Ball {
-            centre: array(&round.centre),
-            radius: round.radius,
-        })
+        let (centre, radius) = (array(&round.centre), round.radius);
+        Some(Shape::Ball { centre, radius })
     }
 }
 
