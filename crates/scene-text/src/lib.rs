@@ -43,7 +43,7 @@ pub use editors::{defaults, for_editors};
 pub use files::named_files;
 pub use names::{comma_list, is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
-pub use paths::{PathProblem, within};
+pub use paths::within;
 pub use picture_range::{PictureRange, falling};
 pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};

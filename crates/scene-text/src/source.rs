@@ -10,7 +10,7 @@ use toml::de::DeTable;
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
 use crate::locate::locate;
 use crate::overrides::Override;
-use crate::paths::{PathProblem, joined, within};
+use crate::paths::{joined, within};
 use crate::text::FILE_BYTES;
 use crate::{MOST_PROBLEMS, SceneProblem, is_within};
 
@@ -131,7 +131,7 @@ impl Source {
     ///
     /// # Errors
     /// If the path leads elsewhere.
-    pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, PathProblem> {
+    pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, String> {
         let folder = Path::new(&self.file).parent().unwrap_or(Path::new(""));
         let by = self.overrides.iter().rfind(|o| is_within(key, &o.path));
         match by.is_some_and(|o| o.users) {

@@ -92,7 +92,7 @@ fn fluid<'a>(points: &'a [[f64; 3]], velocity: &'a [[f64; 3]]) -> Piece<'a> {
         points: points.into(),
         cells: Cells::Vertices,
         fields: vec![
-            FieldData::vector("velocity", "m/s", velocity),
+            FieldData::tensor("velocity", "m/s", 3, velocity.as_flattened()),
             FieldData::scalar("pressure", "Pa", pressure),
             FieldData::integer("id", id),
             FieldData {

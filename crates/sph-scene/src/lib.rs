@@ -66,7 +66,7 @@ pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
-    Diagnostic, Origin, Override, PathProblem, PictureRange, Source, given, read_text, within,
+    Diagnostic, Origin, Override, PictureRange, Source, given, read_text, within,
 };
 pub use tables::body::{Body, BodyShape, Filling, Phase, Pressure};
 pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};

@@ -12,6 +12,8 @@ pub(crate) struct ColourBar<'a> {
     pub(crate) range: [f64; 2],
     pub(crate) colours: ColourMap,
     pub(crate) label: &'a str,
+    /// Names in place of the scale, if there are any.
+    pub(crate) classes: &'a [String],
     /// True for values below, and above, the range: pointed ends.
     pub(crate) beyond: [bool; 2],
     pub(crate) size: f64,
@@ -20,8 +22,12 @@ pub(crate) struct ColourBar<'a> {
 impl ColourBar<'_> {
     /// Pixels that the bar takes to the right of the frame.
     pub(crate) fn room(&self) -> f64 {
-        // With the most ticks it can have; fewer are never wider.
         let size = self.size;
+        if !self.classes.is_empty() {
+            let names = self.classes.iter().map(String::as_str);
+            return text::widest(names, size) + 3.2 * size;
+        }
+        // With the most ticks it can have; fewer are never wider.
         let label = if self.label.is_empty() { 0.6 } else { 2.2 };
         2.6 * size + self.labels_width(&self.ticks(f64::INFINITY)) + label * size
     }
@@ -29,6 +35,9 @@ impl ColourBar<'_> {
     /// Draws the bar beside `frame`, as high as that.
     pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
+        if !self.classes.is_empty() {
+            return self.draw_classes(on, frame);
+        }
         let [below, above] = self.beyond.map(|tip| if tip { 0.9 * size } else { 0.0 });
         let [left, right] = [1.0, 2.1].map(|at| crisp(frame.right + at * size) - 0.5);
         let (top, bottom) = (crisp(frame.top) + above, crisp(frame.bottom) - below);
@@ -94,24 +103,11 @@ impl ColourBar<'_> {
         let labels = ticks.major.iter().map(|(_, label)| label.as_str());
         text::widest(labels, self.size)
     }
-}
 
-/// A list of names, one below the other, to the right of the frame.
-pub(crate) struct ClassBar<'a> {
-    pub(crate) names: &'a [String],
-    pub(crate) size: f64,
-}
-
-impl ClassBar<'_> {
-    /// Pixels that the list takes to the right of the frame.
-    pub(crate) fn room(&self) -> f64 {
-        let names = self.names.iter().map(String::as_str);
-        text::widest(names, self.size) + 3.2 * self.size
-    }
-
-    pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
+    /// The names, one below the other.
+    fn draw_classes(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
-        for (k, name) in self.names.iter().enumerate() {
+        for (k, name) in self.classes.iter().enumerate() {
             let top = frame.top + 1.6 * k as f64 * size;
             let right = [frame.right + 1.8 * size, top + size];
             let block = Rect::between([frame.right + 0.8 * size, top], right);

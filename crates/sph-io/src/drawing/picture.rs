@@ -13,7 +13,7 @@ use sph_core::bounds;
 use crate::drawing::axes::{Axes, PlotAxis, left_room};
 use crate::drawing::canvas::{Canvas, SIDES};
 use crate::drawing::colour::{Colour, ColourMap};
-use crate::drawing::colour_bar::{ClassBar, ColourBar};
+use crate::drawing::colour_bar::ColourBar;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
 use crate::drawing::text;
@@ -110,18 +110,11 @@ impl<'a> Picture<'a> {
             range,
             colours: self.colours,
             label: self.label,
+            classes: self.classes,
             beyond: [any(&|v| v < range[0]), any(&|v| v > range[1])],
             size,
         };
-        let classes = ClassBar {
-            names: self.classes,
-            size,
-        };
-        let room = match self.classes {
-            [] => bar.room(),
-            _ => classes.room(),
-        };
-        let (axes, height) = self.layout(f64::from(width), size, room);
+        let (axes, height) = self.layout(f64::from(width), size, bar.room());
         let mut canvas = Canvas::new(width, height).ok_or("no memory for the picture")?;
         if self.view != View::Plane {
             self.draw_walls(&mut canvas, &axes);
@@ -140,10 +133,7 @@ impl<'a> Picture<'a> {
             View::Above => draw_compass(&mut canvas, &axes),
             _ => axes.draw(&mut canvas),
         }
-        match self.classes {
-            [] => bar.draw(&mut canvas, frame),
-            _ => classes.draw(&mut canvas, frame),
-        }
+        bar.draw(&mut canvas, frame);
         let time = self.time.map(time_stamp).unwrap_or_default();
         let taken = text::width(&time, size) + if time.is_empty() { 0.0 } else { size };
         let title = text::fitted(self.title, 1.15 * size, frame.right - frame.left - taken);

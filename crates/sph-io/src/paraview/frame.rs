@@ -119,15 +119,6 @@ impl<'a> FieldData<'a> {
         Self::tensor(name, unit, 1, data)
     }
 
-    /// Three reals per point.
-    pub fn vector(
-        name: impl Into<Cow<'a, str>>,
-        unit: impl Into<Cow<'a, str>>,
-        data: &'a [[f64; 3]],
-    ) -> Self {
-        Self::tensor(name, unit, 3, data.as_flattened())
-    }
-
     /// Some reals per point: a tensor, as its components stand in the data.
     pub fn tensor(
         name: impl Into<Cow<'a, str>>,

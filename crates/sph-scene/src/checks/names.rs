@@ -143,7 +143,7 @@ fn files_of_motion(motion: &mut Motion, source: &Source, mut check: TableCheck<'
 fn located(file: &Option<String>, source: &Source, mut check: TableCheck<'_>) -> Option<PathBuf> {
     let key = format!("{}.file", check.path);
     let found = source.resolve(&key, file.as_ref()?);
-    found.map_err(|why| check.add("file", why.to_string())).ok()
+    found.map_err(|why| check.add("file", why)).ok()
 }
 
 fn reference_keys(reference: &Reference, check: &mut TableCheck<'_>) {

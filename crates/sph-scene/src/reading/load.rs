@@ -9,11 +9,11 @@ use sph_core::{SceneProblem, conform, kinds};
 use thiserror::Error;
 use toml::{Table, Value};
 
+use crate::Scene;
 use crate::checks::collected;
 use crate::reading::plugins::Plugins;
 use crate::reading::suited::add_suited;
 use crate::reading::{columns, hints, kinematic, limits, remarks, renamed, schema};
-use crate::{PathProblem, Scene};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -199,6 +199,6 @@ pub struct DataFile {
     pub key: String,
     /// The file as the scene names it.
     pub named: String,
-    /// Path of the file, if the scene may name it.
-    pub path: Result<PathBuf, PathProblem>,
+    /// Path of the file, if the scene may name it, or why it may not.
+    pub path: Result<PathBuf, String>,
 }

@@ -132,9 +132,3 @@ pub(crate) fn solution(reference: &str, name: String, table: Table) -> PluginCho
         name_path: format!("reference.{reference}.solution"),
     }
 }
-
-/// The only plugin of a kind in its table under a parent, as a choice.
-pub(crate) fn single(kind: &'static str, plugins: &Plugins, parent: &str) -> Option<PluginChoice> {
-    let all = in_table(kind, plugins, &format!("{parent}.{kind}"));
-    all.into_iter().next()
-}

@@ -170,7 +170,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
 
 /// The nature of the law of a phase.
 fn law(scene: &Scene, phase: &str) -> LawNature {
-    let known = scene.rheology(phase).and_then(|choice| {
+    let known = scene.choice_in("rheology", phase).and_then(|choice| {
         let mut all = inventory::iter::<LawNatures>.into_iter();
         all.find_map(|natures| (natures.0)(&choice.name, &choice.table))
     });
