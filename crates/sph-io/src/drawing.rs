@@ -8,7 +8,6 @@ pub mod colour_bar;
 pub mod colour_ranges;
 pub mod draw_target;
 pub mod extent;
-pub mod legend;
 pub mod mark;
 pub mod particles;
 pub mod picture;

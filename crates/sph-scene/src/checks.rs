@@ -1,11 +1,10 @@
 //! Conditions beyond the schema.
 
-pub(crate) mod bounds;
+pub(crate) mod bodies;
 pub(crate) mod collected;
 pub(crate) mod geometry;
 pub(crate) mod motion;
 pub(crate) mod names;
-pub(crate) mod overlap;
 pub(crate) mod shapes;
 pub(crate) mod table_check;
 pub(crate) mod time;

@@ -1,7 +1,6 @@
 //! Shapes in the plane and in space, and how they move.
 
 pub(crate) mod course;
-pub(crate) mod divide;
 pub(crate) mod ellipse;
 pub(crate) mod level;
 pub(crate) mod outlines;
@@ -12,6 +11,5 @@ pub(crate) mod shapes;
 pub(crate) mod sided;
 pub(crate) mod solid;
 pub(crate) mod transform;
-pub(crate) mod triangulate;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;

@@ -2,12 +2,12 @@
 
 use scene_text::Problems;
 
-use crate::checks::bounds::within_bounds;
+use crate::checks::bodies::{apart, within_bounds};
+use crate::checks::motion;
 use crate::checks::shapes::body_geometry;
 use crate::checks::table_check::TableCheck;
 use crate::checks::walls::{bed, wall_geometry};
 use crate::checks::zones::{check_zones, outlet};
-use crate::checks::{motion, overlap};
 use crate::{GravityOverTime, Motion, Scene};
 
 /// Checks everything that has a place in space.
@@ -43,7 +43,7 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
 fn places<const D: usize>(scene: &Scene, whole: &mut TableCheck<'_>) {
     within_bounds::<D>(scene, whole);
     if whole.found.0.is_empty() {
-        overlap::check::<D>(scene, whole.found);
+        apart::<D>(scene, whole.found);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The data of SVG paths: `M 0 0 L 1 0 A …`.
 
-use kurbo::{Arc, BezPath, Point, SvgArc, Vec2};
+use kurbo::{Arc, BezPath, PathEl, Point, SvgArc, Vec2};
 use svgtypes::{PathParser, PathSegment};
 
 /// The path of the data, its arcs as cubics within `tolerance`.
@@ -41,21 +41,17 @@ impl Pen {
             false => Err(format!("d: ({x}, {y}) is out of range for this spacing")),
         };
         let [cubic, quadratic] = self.handles.map(|last| from + (from - last));
-        let mut handles = [None; 2];
         if !matches!(segment, PathSegment::MoveTo { .. }) && !self.down {
-            self.begin(from);
+            self.push(PathEl::MoveTo(from));
         }
-        self.at = match segment {
-            PathSegment::MoveTo { x, y, .. } => {
-                self.begin(place(x, y)?);
-                self.start
-            }
-            PathSegment::LineTo { x, y, .. } => self.line(place(x, y)?),
+        let drawn = match segment {
+            PathSegment::MoveTo { x, y, .. } => PathEl::MoveTo(place(x, y)?),
+            PathSegment::LineTo { x, y, .. } => PathEl::LineTo(place(x, y)?),
             PathSegment::HorizontalLineTo { x, .. } => {
-                self.line(Point::new(place(x, 0.0)?.x, from.y))
+                PathEl::LineTo(Point::new(place(x, 0.0)?.x, from.y))
             }
             PathSegment::VerticalLineTo { y, .. } => {
-                self.line(Point::new(from.x, place(0.0, y)?.y))
+                PathEl::LineTo(Point::new(from.x, place(0.0, y)?.y))
             }
             PathSegment::CurveTo {
                 x1,
@@ -65,19 +61,14 @@ impl Pen {
                 x,
                 y,
                 ..
-            } => {
-                let first = place(x1, y1)?;
-                self.cubic([first, place(x2, y2)?, place(x, y)?], &mut handles)
-            }
+            } => PathEl::CurveTo(place(x1, y1)?, place(x2, y2)?, place(x, y)?),
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
-                self.cubic([cubic, place(x2, y2)?, place(x, y)?], &mut handles)
+                PathEl::CurveTo(cubic, place(x2, y2)?, place(x, y)?)
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
-                self.quadratic([place(x1, y1)?, place(x, y)?], &mut handles)
+                PathEl::QuadTo(place(x1, y1)?, place(x, y)?)
             }
-            PathSegment::SmoothQuadratic { x, y, .. } => {
-                self.quadratic([quadratic, place(x, y)?], &mut handles)
-            }
+            PathSegment::SmoothQuadratic { x, y, .. } => PathEl::QuadTo(quadratic, place(x, y)?),
             PathSegment::EllipticalArc {
                 rx,
                 ry,
@@ -89,66 +80,43 @@ impl Pen {
                 ..
             } => {
                 place(rx, ry)?;
+                let to = place(x, y)?;
                 let arc = SvgArc {
                     from,
-                    to: place(x, y)?,
+                    to,
                     radii: Vec2::new(rx, ry),
                     x_rotation: x_axis_rotation.to_radians(),
                     large_arc,
                     sweep,
                 };
-                self.arc(&arc, tolerance)
+                // Between ends that are one place an arc has no centre.
+                let apart = (to - from).hypot() > 1e-9 * tolerance;
+                if let Some(arc) = Some(&arc).filter(|_| apart).and_then(Arc::from_svg_arc) {
+                    let path = &mut self.path;
+                    arc.to_cubic_beziers(tolerance, |a, b, c| path.curve_to(a, b, c));
+                    (self.at, self.handles) = (to, [to; 2]);
+                    return Ok(());
+                }
+                PathEl::LineTo(to)
             }
-            PathSegment::ClosePath { .. } => {
-                self.path.close_path();
-                self.down = false;
-                self.start
-            }
+            PathSegment::ClosePath { .. } => PathEl::ClosePath,
         };
-        self.handles = handles.map(|handle| handle.unwrap_or(self.at));
+        self.push(drawn);
         Ok(())
     }
 
-    /// A new line from here.
-    fn begin(&mut self, at: Point) {
-        self.path.move_to(at);
-        self.start = at;
-        self.down = true;
-    }
-
-    /// A curve by two handles; a smooth continuation mirrors the second.
-    fn cubic(
-        &mut self,
-        [first, second, to]: [Point; 3],
-        handles: &mut [Option<Point>; 2],
-    ) -> Point {
-        handles[0] = Some(second);
-        self.path.curve_to(first, second, to);
-        to
-    }
-
-    /// The same by one handle.
-    fn quadratic(&mut self, [control, to]: [Point; 2], handles: &mut [Option<Point>; 2]) -> Point {
-        handles[1] = Some(control);
-        self.path.quad_to(control, to);
-        to
-    }
-
-    fn line(&mut self, to: Point) -> Point {
-        self.path.line_to(to);
-        to
-    }
-
-    fn arc(&mut self, given: &SvgArc, tolerance: f64) -> Point {
-        // Between ends that are one place an arc has no centre.
-        let apart = (given.to - given.from).hypot() > 1e-9 * tolerance;
-        match Some(given).filter(|_| apart).and_then(Arc::from_svg_arc) {
-            Some(arc) => {
-                let path = &mut self.path;
-                arc.to_cubic_beziers(tolerance, |a, b, c| path.curve_to(a, b, c));
-            }
-            None => self.path.line_to(given.to),
+    fn push(&mut self, drawn: PathEl) {
+        if let PathEl::MoveTo(start) = drawn {
+            self.start = start;
         }
-        given.to
+        self.path.push(drawn);
+        self.down = drawn != PathEl::ClosePath;
+        let at = drawn.end_point().unwrap_or(self.start);
+        self.handles = match drawn {
+            PathEl::CurveTo(_, second, _) => [second, at],
+            PathEl::QuadTo(control, _) => [at, control],
+            _ => [at; 2],
+        };
+        self.at = at;
     }
 }

@@ -5,9 +5,8 @@ use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 
 use crate::drawings::format::lines;
 use crate::drawings::heading::Form;
-use crate::geometry::divide::{self, sides_of};
 use crate::geometry::outlines::{Line, oriented, rectangle};
-use crate::geometry::solid;
+use crate::geometry::solid::{self, sides_of};
 use crate::geometry::transform::Placing;
 use crate::geometry::vector::array;
 use crate::reading::limits::{LINES, WALL_CORNERS};
@@ -233,7 +232,7 @@ impl Wall {
 impl SphereWall {
     /// Parts of every edge of the icosahedron, at a spacing in the unit of the geometry.
     fn parts(&self, spacing: f64) -> usize {
-        let open = || divide::subdivisions(self.shape.radius / spacing);
+        let open = || solid::subdivisions(self.shape.radius / spacing);
         self.subdivisions.unwrap_or_else(open)
     }
 }

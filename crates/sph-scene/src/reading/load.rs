@@ -11,9 +11,9 @@ use toml::{Table, Value};
 
 use crate::Scene;
 use crate::checks::collected;
-use crate::reading::plugins::Plugins;
+use crate::reading::plugins::{self, Plugins};
 use crate::reading::suited::add_suited;
-use crate::reading::{columns, hints, kinematic, limits, remarks, renamed, schema};
+use crate::reading::{hints, limits, renamed, schema, units};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -116,8 +116,8 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let unread = |e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]);
     let (resolved, mut remarks) = resolved(source)?;
     let mut whole = resolved.as_table().cloned().unwrap_or_default();
-    kinematic::to_dynamic(&mut whole);
-    let (of_plugins, mistakes) = remarks::of_plugins(&whole);
+    units::to_dynamic(&mut whole);
+    let (of_plugins, mistakes) = plugins::of_plugins(&whole);
     let mut table = Value::Table(whole.clone());
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
@@ -165,9 +165,9 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
         Vec::new()
     });
     problems.extend(collected::tables(&table));
-    problems.extend(columns::convert(&mut table));
+    problems.extend(units::convert(&mut table));
     let mut written = table.clone();
-    kinematic::to_dynamic(&mut written);
+    units::to_dynamic(&mut written);
     let mut value = Value::Table(table);
     let mut remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
@@ -177,7 +177,7 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     match problems.is_empty() {
         true => Ok((value, remarks)),
         false => {
-            add_new(&mut problems, remarks::of_plugins(&written).1);
+            add_new(&mut problems, plugins::of_plugins(&written).1);
             Err(diagnosed(hints::added(problems, &written)))
         }
     }
