@@ -1,7 +1,6 @@
 //! Shapes in the plane and in space, and how they move.
 
 pub(crate) mod course;
-pub(crate) mod ellipse;
 pub(crate) mod level;
 pub(crate) mod outlines;
 pub(crate) mod periodic_place;
@@ -10,6 +9,5 @@ pub(crate) mod region;
 pub(crate) mod shapes;
 pub(crate) mod sided;
 pub(crate) mod solid;
-pub(crate) mod transform;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;

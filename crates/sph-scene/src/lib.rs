@@ -52,8 +52,7 @@ mod geometry;
 mod reading;
 mod tables;
 
-pub use filling::disorder::{disturb, noise};
-pub use filling::fill::{BodyParticles, Offset, estimate, fill};
+pub use filling::{BodyParticles, Offset, disturb, estimate, fill, noise};
 pub use geometry::course::Courses;
 pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
@@ -68,8 +67,9 @@ pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
     Diagnostic, Origin, Override, PictureRange, Source, given, read_text, within,
 };
-pub use tables::body::{Body, BodyShape, Filling, Phase, Pressure};
-pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
+pub use tables::body::{
+    Body, BodyShape, Cone, Cylinder, Ellipse, Extrusion, Filling, Phase, Pressure, Round,
+};
 pub use tables::motion::{
     AngularRamp, AngularSine, CourseRows, Levels, Motion, Oscillation, Ramp, Rotation, Sine,
     Translate,

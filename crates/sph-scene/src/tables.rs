@@ -1,7 +1,6 @@
 //! The tables of a scene, as plain data.
 
 pub(crate) mod body;
-pub(crate) mod body_shapes;
 pub(crate) mod motion;
 pub(crate) mod numerics;
 pub(crate) mod outlet;

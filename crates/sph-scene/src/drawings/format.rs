@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::Line;
-use crate::drawings::heading::Form;
-use crate::drawings::{rows, svg};
+use crate::drawings::rows::{self, Form};
+use crate::drawings::svg;
 
 /// Format of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,7 @@ use scene_text::given;
 use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
 
-use crate::drawings::heading::Form;
-use crate::drawings::rows::{self, Row};
+use crate::drawings::rows::{self, Form, Row};
 use crate::geometry::vector::{array, unit, unit_axis};
 use crate::reading::limits::TIMES;
 use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};

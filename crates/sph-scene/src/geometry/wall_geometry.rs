@@ -1,14 +1,13 @@
-//! The geometry of a wall as lines or facets.
+//! The geometry of a wall as lines or facets, scaled, turned and shifted.
 
-use scene_text::surface::Facets;
+use scene_text::surface::{Facets, cross, dot};
 use sph_core::{Axis, SceneProblem, bounds, unit_factor};
 
 use crate::drawings::format::lines;
-use crate::drawings::heading::Form;
+use crate::drawings::rows::Form;
 use crate::geometry::outlines::{Line, oriented, rectangle};
 use crate::geometry::solid::{self, sides_of};
-use crate::geometry::transform::Placing;
-use crate::geometry::vector::array;
+use crate::geometry::vector::{array, unit_axis};
 use crate::reading::limits::{LINES, WALL_CORNERS};
 use crate::tables::wall_shapes::{Face, Wedge};
 use crate::{FluidSide, SphereWall, Wall};
@@ -258,4 +257,53 @@ fn length(line: &Line) -> f64 {
     let ends = line.points.iter().skip(1).chain(closing);
     let edges = line.points.iter().zip(ends);
     edges.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+}
+
+/// x → turn·(factor·x − centre) + centre + shift.
+struct Placing {
+    factor: f64,
+    turn: Option<RotationAxis>,
+    shift: [f64; 3],
+}
+
+struct RotationAxis {
+    centre: [f64; 3],
+    axis: [f64; 3],
+    cos: f64,
+    sin: f64,
+}
+
+impl Placing {
+    pub fn new(wall: &Wall, factor: f64) -> Self {
+        let turn = wall.rotate.as_ref().map(|rotate| RotationAxis {
+            centre: array(rotate.centre.as_deref().unwrap_or(&[])),
+            axis: unit_axis(&rotate.axis),
+            cos: solid::clean(rotate.angle.cos()),
+            sin: solid::clean(rotate.angle.sin()),
+        });
+        Placing {
+            factor,
+            turn,
+            shift: array(wall.translate.as_deref().unwrap_or(&[])),
+        }
+    }
+
+    pub fn apply(&self, x: &[f64; 3]) -> [f64; 3] {
+        let mut x = x.map(|c| self.factor * c);
+        if let Some(turn) = &self.turn {
+            let arm: [f64; 3] = std::array::from_fn(|k| x[k] - turn.centre[k]);
+            let across = cross(&turn.axis, &arm);
+            let along = dot(&turn.axis, &arm) * (1.0 - turn.cos);
+            x = std::array::from_fn(|k| {
+                let turned = turn.cos * arm[k] + turn.sin * across[k] + along * turn.axis[k];
+                turn.centre[k] + turned
+            });
+        }
+        std::array::from_fn(|k| x[k] + self.shift[k])
+    }
+
+    pub fn flat(&self, x: &[f64; 2]) -> [f64; 2] {
+        let [x, y, _] = self.apply(&[x[0], x[1], 0.0]);
+        [x, y]
+    }
 }

@@ -10,7 +10,7 @@ use thiserror::Error;
 use toml::{Table, Value};
 
 use crate::Scene;
-use crate::checks::collected;
+use crate::checks;
 use crate::reading::plugins::{self, Plugins};
 use crate::reading::suited::add_suited;
 use crate::reading::{hints, limits, renamed, schema, units};
@@ -122,7 +122,7 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
-    let mut problems = collected::scene(&mut scene, source);
+    let mut problems = checks::scene(&mut scene, source);
     add_new(&mut problems, mistakes);
     if !problems.is_empty() {
         return Err(diagnosed(hints::added(problems, &whole)));
@@ -164,7 +164,7 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
         problems.push(both);
         Vec::new()
     });
-    problems.extend(collected::tables(&table));
+    problems.extend(checks::tables(&table));
     problems.extend(units::convert(&mut table));
     let mut written = table.clone();
     units::to_dynamic(&mut written);
