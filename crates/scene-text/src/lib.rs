@@ -22,7 +22,6 @@
 mod conform;
 mod diagnostic;
 mod editors;
-mod locate;
 mod names;
 pub mod number;
 mod overrides;

@@ -8,7 +8,6 @@ mod shapes;
 mod table_check;
 mod time;
 mod walls;
-mod wave;
 mod zones;
 
 use scene_text::Problems;

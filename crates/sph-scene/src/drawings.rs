@@ -3,4 +3,3 @@
 pub(crate) mod format;
 pub(crate) mod rows;
 pub(crate) mod svg;
-pub(crate) mod svg_path;

@@ -93,10 +93,9 @@ impl<'a> Cloud<'a> {
             matrix[(3, 3)] = total;
         }
         let spectrum = matrix.symmetric_eigenvalues();
-        let slope = match spectrum.min() > LEAST * spectrum.max() {
-            true => matrix.cholesky().map(|m| m.solve(&Vector4::x())),
-            false => None,
-        };
+        let believed = spectrum.min() > LEAST * spectrum.max();
+        let slope = believed.then(|| matrix.cholesky()).flatten();
+        let slope = slope.map(|m| m.solve(&Vector4::x()));
         let factor = slope.unwrap_or_else(|| Vector4::x() / total);
         let share = |(j, weight, basis): (u32, f64, Vector4<f64>)| (j, weight * factor.dot(&basis));
         let shares: Weights = near.into_iter().map(share).collect();

@@ -125,8 +125,6 @@ fn spacing(points: &[[f64; 3]]) -> f64 {
     }
     nearest.sort_by(f64::total_cmp);
     let middle = nearest.get(nearest.len() / 2).copied().unwrap_or(1.0);
-    match middle.is_finite() && middle > 0.0 {
-        true => middle.sqrt(),
-        false => 1.0,
-    }
+    let apart = middle.is_finite() && middle > 0.0;
+    if apart { middle.sqrt() } else { 1.0 }
 }

@@ -63,10 +63,8 @@ pub fn quantiles(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 
 /// Round numbers that hold both; from zero where the lower one is not far above it.
 fn rounded([low, high]: [f64; 2]) -> Option<[f64; 2]> {
-    let low = match (0.0..=FROM_ZERO * high).contains(&low) {
-        true => 0.0,
-        false => low,
-    };
+    let from_zero = (0.0..=FROM_ZERO * high).contains(&low);
+    let low = if from_zero { 0.0 } else { low };
     let step = 0.1 * round_up(high - low);
     let ends = [(low / step).floor() * step, (high / step).ceil() * step];
     (ends[0] < ends[1] && (ends[1] - ends[0]).is_finite()).then_some(ends)

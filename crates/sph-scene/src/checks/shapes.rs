@@ -1,7 +1,7 @@
 //! Bodies: their shapes, and how they are filled.
 
+use crate::checks::bodies::keys_of_wave;
 use crate::checks::table_check::TableCheck;
-use crate::checks::wave;
 use crate::tables::body::BodyShape;
 use crate::{Body, Pressure, Scene};
 
@@ -31,7 +31,7 @@ pub(crate) fn body_geometry(scene: &Scene, body: &Body, mut check: TableCheck<'_
     let twice = body.velocity.is_some() && !body.initial.is_empty();
     let message = "the velocity at the start is given here and by an `initial` plugin: choose one";
     check.refuse(twice, "velocity", message);
-    wave::keys(scene, body, check.below("wave"));
+    keys_of_wave(scene, body, check.below("wave"));
     let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
     let hydrostatic = body.pressure == Pressure::Hydrostatic;
     let message = "a hydrostatic pressure needs `numerics.gravity`";

@@ -112,10 +112,8 @@ pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, (
         }
         let anticlockwise = polygons[k].area() > 0.0;
         let wanted = (side == FluidSide::Inside) == within.is_multiple_of(2);
-        turned.push(match anticlockwise == wanted {
-            true => line,
-            false => line.reversed(),
-        });
+        let right = anticlockwise == wanted;
+        turned.push(if right { line } else { line.reversed() });
     }
     Ok(turned)
 }

@@ -69,10 +69,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
         let spanned = spans.contains(&true);
         match shape {
             Shape::Cuboid { lo, hi } => {
-                let far = |k: usize| match spans[k] {
-                    true => 4.0 * (hi[k] - lo[k]),
-                    false => 0.0,
-                };
+                let far = |k: usize| if spans[k] { 4.0 * (hi[k] - lo[k]) } else { 0.0 };
                 deepest(&Shape::Cuboid {
                     lo: std::array::from_fn(|k| lo[k] - far(k)),
                     hi: std::array::from_fn(|k| hi[k] + far(k)),
@@ -91,15 +88,11 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
                     let at = x[*axis] - s[*axis];
                     (at - ends[0]).min(ends[1] - at)
                 };
-                match spans[*axis] {
-                    true => side,
-                    false => side.min(
-                        self.shifts
-                            .iter()
-                            .map(end)
-                            .fold(f64::NEG_INFINITY, f64::max),
-                    ),
+                if spans[*axis] {
+                    return side;
                 }
+                let ends = self.shifts.iter().map(end);
+                side.min(ends.fold(f64::NEG_INFINITY, f64::max))
             }
             Shape::Cylinder { from, to, radius } if spanned => {
                 let far = |a: &[f64; D], b: &[f64; D]| {
@@ -137,10 +130,8 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
             }
             false => x[axes[k]],
         });
-        match polygon.contains(beside) {
-            true => away,
-            false => -away,
-        }
+        let inside = polygon.contains(beside);
+        if inside { away } else { -away }
     }
 }
 

@@ -52,10 +52,8 @@ impl Polygon {
             let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
             let (px, py) = (x[0] - a[0], x[1] - a[1]);
             let length = ex * ex + ey * ey;
-            let t = match length > 0.0 {
-                true => ((px * ex + py * ey) / length).clamp(0.0, 1.0),
-                false => 0.0,
-            };
+            let along = ((px * ex + py * ey) / length).clamp(0.0, 1.0);
+            let t = if length > 0.0 { along } else { 0.0 };
             (px - t * ex).hypot(py - t * ey)
         };
         let edges = self.edges().filter(|(a, b)| counts(*a, *b));

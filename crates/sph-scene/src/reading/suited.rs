@@ -155,10 +155,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let all_known = scene.wall.values().all(|wall| known(wall, spacing));
     let laws = scene.phase.keys().map(|phase| law(scene, phase));
     FlowNature {
-        confined: match filled {
-            true => !bounded,
-            false => (0..D).all(spans),
-        },
+        confined: if filled { !bounded } else { (0..D).all(spans) },
         parallel: all_known && !stirred && !corners.is_empty() && (0..D).any(along),
         open: (scene.wall.values()).any(|w| !w.mover.is_empty() || !w.open_boundary.is_empty()),
         heavy: heavy(scene),

@@ -183,10 +183,8 @@ impl Scene {
 
     /// The table of a probe or gauge of a name: `probe` or `gauge`.
     pub fn table_of_probe(&self, name: &str) -> &'static str {
-        match self.gauge.contains_key(name) {
-            true => "gauge",
-            false => "probe",
-        }
+        let gauge = self.gauge.contains_key(name);
+        if gauge { "gauge" } else { "probe" }
     }
 
     /// Probes and gauges: the name of each and its plugin.
