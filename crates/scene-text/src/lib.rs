@@ -22,10 +22,10 @@
 mod conform;
 mod diagnostic;
 mod editors;
+mod files;
 mod names;
 pub mod number;
 mod overrides;
-mod paths;
 mod picture_range;
 pub mod plausible;
 mod problem;
@@ -33,19 +33,17 @@ mod quantity;
 mod source;
 #[cfg(feature = "surface")]
 pub mod surface;
-mod text;
 
 pub use conform::{conform, resolved};
 pub use diagnostic::{Diagnostic, Origin};
 pub use editors::{defaults, for_editors};
+pub use files::{decoded, named_files, read_bytes, read_text, within};
 pub use names::{comma_list, is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
-pub use paths::{named_files, within};
 pub use picture_range::{PictureRange, falling};
 pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
-pub use text::{decoded, read_bytes, read_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,9 +8,8 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
+use crate::files::{FILE_BYTES, joined, within};
 use crate::overrides::Override;
-use crate::paths::{joined, within};
-use crate::text::FILE_BYTES;
 use crate::{MOST_PROBLEMS, SceneProblem, is_within};
 
 /// The text of a scene file and the overrides on top of it.

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::disk::{Durability, write_atomic};
 
 /// The first bytes of every checkpoint.
 const MAGIC: [u8; 8] = *b"SPHCKPT\0";

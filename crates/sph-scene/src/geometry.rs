@@ -1,7 +1,6 @@
 //! Shapes in the plane and in space, and how they move.
 
 pub(crate) mod course;
-pub(crate) mod level;
 pub(crate) mod outlines;
 pub(crate) mod periodic_place;
 pub(crate) mod polygon;

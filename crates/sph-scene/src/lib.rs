@@ -54,7 +54,6 @@ mod tables;
 
 pub use filling::{BodyParticles, Offset, disturb, estimate, fill, noise};
 pub use geometry::course::Courses;
-pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
@@ -85,4 +84,4 @@ pub use tables::wall::{Erodible, FluidSide, FrictionForm, SlipCondition, Wall};
 pub use tables::wall_shapes::{
     ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
 };
-pub use tables::wave::{Heading, Wave, WaveKind};
+pub use tables::wave::{Heading, LevelSurface, Wave, WaveKind};

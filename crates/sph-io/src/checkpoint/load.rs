@@ -12,7 +12,7 @@ use super::{
     MAGIC, PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
-use crate::files::folder::readable;
+use crate::files::disk::readable;
 
 impl Checkpoint {
     /// Reads the checkpoint at `path`; any damage is an error that names the check failed.

@@ -7,8 +7,7 @@ use gif::{Encoder, Frame, Repeat};
 use tiny_skia::Pixmap;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
-use crate::files::folder::writable;
+use crate::files::disk::{Durability, writable, write_atomic};
 
 /// Every tenth pixel counts for the 256 colours of a frame.
 const SPEED: i32 = 10;

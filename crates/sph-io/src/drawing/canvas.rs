@@ -10,7 +10,7 @@ use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::text;
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
+use crate::files::disk::write_whole;
 
 /// Sides in pixels that a picture may have.
 pub(crate) const SIDES: std::ops::RangeInclusive<u32> = 200..=8192;

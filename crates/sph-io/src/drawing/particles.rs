@@ -3,12 +3,11 @@
 //! Of a surface every particle is a sphere of 1.5 times its diameter. Depths of the nearest spheres are made smooth over
 //! about a diameter, and light from the upper left shades what their slopes are.
 
-use crate::drawing::axes::Axes;
+use crate::drawing::axes::{Axes, View, project};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::draw_target::{Fill, Spot};
 use crate::drawing::picture::Picture;
-use crate::drawing::view::{View, project};
 
 /// Diameter of the spheres over that of the particles.
 const SWOLLEN: f64 = 1.5;

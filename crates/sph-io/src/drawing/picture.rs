@@ -10,7 +10,7 @@ use std::path::Path;
 
 use sph_core::bounds;
 
-use crate::drawing::axes::{Axes, PlotAxis, left_room};
+use crate::drawing::axes::{Axes, PlotAxis, View, draw_compass, left_room, project};
 use crate::drawing::canvas::{Canvas, SIDES};
 use crate::drawing::colour::{Colour, ColourMap};
 use crate::drawing::colour_bar::ColourBar;
@@ -18,7 +18,6 @@ use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect
 use crate::drawing::extent;
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
-use crate::drawing::view::{View, draw_compass, project};
 use crate::error::{IoError, Result};
 
 /// A particle field and how it is to be drawn.

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Spot};
 use crate::error::Result;
-use crate::files::atomic::write_whole;
+use crate::files::disk::write_whole;
 use crate::paraview::xml::escape;
 
 /// An SVG document, white at first.

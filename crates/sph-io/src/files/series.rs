@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
+use crate::files::disk::write_whole;
 
 /// Writes a CSV file with a header `time[s],dt[s],…`, one flushed row at a time.
 ///

@@ -11,8 +11,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
-use crate::files::folder::{beside, writable};
+use crate::files::disk::{beside, writable, write_whole};
 use crate::paraview::frame::Frame;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;

@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::Document;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
-use crate::files::folder::beside;
+use crate::files::disk::{beside, write_whole};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::{piece_name, read_vtu};

@@ -12,7 +12,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::disk::{Durability, write_atomic};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::xml::escape;
 
