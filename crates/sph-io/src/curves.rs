@@ -18,14 +18,12 @@ use crate::IoError;
 mod cloud;
 mod frames;
 mod profile;
-mod snapshot;
 mod streamline;
 mod track;
 
 pub use cloud::{Cloud, Weights};
-pub use frames::{Entry, Frames};
+pub use frames::{Column, Entry, Frames, Snapshot};
 pub use profile::{Line, draw_profile};
-pub use snapshot::{Column, Snapshot};
 pub use streamline::{draw_streamlines, streamlines};
 pub use track::{Track, draw_tracks, evenly, nearest, tracks};
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::curves::snapshot::finite_bounds;
+use crate::curves::frames::finite_bounds;
 use crate::curves::{DrawError, Frames, PLACE, Result, Snapshot, write_beside};
 
 /// The places of a particle, frame by frame.

@@ -146,25 +146,25 @@ impl<'a> Picture<'a> {
     /// The contradiction between parts, in words.
     fn check(&self) -> std::result::Result<(), String> {
         let (points, values) = (self.points.len(), self.values.len());
-        if points != values {
-            return Err(format!("{values} values for {points} particles"));
-        }
-        let mut diameters = self.diameters.iter().chain([&self.diameter]);
-        if let Some(bad) = diameters.find(|d| !(d.is_finite() && **d >= 0.0)) {
-            return Err(format!("a diameter of {bad} m"));
-        }
         let sizes = self.diameters.len();
-        if sizes != 0 && sizes != points {
-            return Err(format!("{sizes} diameters for {points} particles"));
-        }
+        let sound = |d: &&f64| d.is_finite() && **d >= 0.0;
+        let bad = self
+            .diameters
+            .iter()
+            .chain([&self.diameter])
+            .find(|d| !sound(d));
         let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
-        if let Some(range) = self.range.filter(|r| !rising(r)) {
-            return Err(format!("a colour range of {range:?}"));
-        }
-        if let Some(window) = self.window.filter(|w| !w.iter().all(rising)) {
-            return Err(format!("a window of {window:?} m"));
-        }
-        Ok(())
+        let range = self.range.filter(|r| !rising(r));
+        let window = self.window.filter(|w| !w.iter().all(rising));
+        let faults = [
+            (points != values).then(|| format!("{values} values for {points} particles")),
+            bad.map(|bad| format!("a diameter of {bad} m")),
+            (sizes != 0 && sizes != points)
+                .then(|| format!("{sizes} diameters for {points} particles")),
+            range.map(|range| format!("a colour range of {range:?}")),
+            window.map(|window| format!("a window of {window:?} m")),
+        ];
+        faults.into_iter().flatten().next().map_or(Ok(()), Err)
     }
 
     /// The axes in their place, and the height of the picture in pixels.

@@ -212,11 +212,8 @@ impl ColumnChoice {
                 (None, None) => 1.0,
             };
         }
-        Ok(ColumnChoice {
-            at,
-            factors,
-            only: form.columns.is_none(),
-        })
+        let only = form.columns.is_none();
+        Ok(ColumnChoice { at, factors, only })
     }
 }
 
@@ -232,10 +229,9 @@ impl Head {
         let cut = cell.find(['[', '(']).or(cell.find('/'));
         let (name, unit) = cut.map_or((cell, ""), |k| cell.split_at(k));
         let unit = unit.trim_matches(['[', ']', '(', ')', '/', ' ']);
-        Head {
-            name: name.trim().to_string(),
-            unit: (!unit.is_empty()).then(|| unit.to_string()),
-        }
+        let unit = (!unit.is_empty()).then(|| unit.to_string());
+        let name = name.trim().to_string();
+        Head { name, unit }
     }
 }
 

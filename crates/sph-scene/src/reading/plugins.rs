@@ -76,13 +76,12 @@ pub(crate) fn in_table<'t, T: Into<Value> + Clone + 't>(
             return None;
         };
         let path = format!("{path}.{name}");
-        Some(PluginChoice {
+        Some(plugin_choice(
             kind,
-            name: name.clone(),
+            name.clone(),
             table,
-            path: path.clone(),
-            name_path: path,
-        })
+            [path.clone(), path],
+        ))
     };
     held.into_iter().filter_map(choice).collect()
 }
@@ -100,14 +99,8 @@ pub(crate) fn probes<'t, T: Into<Value> + Clone + 't>(
             return None;
         };
         let path = format!("{parent}.{name}");
-        let choice = PluginChoice {
-            kind: "probe",
-            name: kind,
-            table,
-            name_path: format!("{path}.kind"),
-            path,
-        };
-        Some((name.clone(), choice))
+        let places = [path.clone(), format!("{path}.kind")];
+        Some((name.clone(), plugin_choice("probe", kind, table, places)))
     };
     tables.into_iter().filter_map(choice).collect()
 }
@@ -126,12 +119,23 @@ pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
 
 /// The solution of a reference, by its name and parameters.
 pub(crate) fn solution(reference: &str, name: String, table: Table) -> PluginChoice {
+    let places = ["parameters", "solution"].map(|key| format!("reference.{reference}.{key}"));
+    plugin_choice("solution", name, table, places)
+}
+
+/// A choice with the places of its table and of its name.
+fn plugin_choice(
+    kind: &'static str,
+    name: String,
+    table: Table,
+    [path, name_path]: [String; 2],
+) -> PluginChoice {
     PluginChoice {
-        kind: "solution",
+        kind,
         name,
         table,
-        path: format!("reference.{reference}.parameters"),
-        name_path: format!("reference.{reference}.solution"),
+        path,
+        name_path,
     }
 }
 
