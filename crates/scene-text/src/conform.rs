@@ -69,10 +69,11 @@ impl<'s> Walk<'s> {
             }
         }
         if let Some(allowed) = schema.get("enum").and_then(Json::as_array) {
-            return self.one_of_names(value, allowed.iter().filter_map(Json::as_str), path);
+            let names = allowed.iter().filter_map(Json::as_str);
+            return self.one_of_names(value, names.collect(), path);
         }
         if let Some(name) = schema.get("const").and_then(Json::as_str) {
-            return self.one_of_names(value, std::iter::once(name), path);
+            return self.one_of_names(value, vec![name], path);
         }
         let kind = match schema.get("type") {
             Some(Json::String(kind)) => Some(kind.as_str()),
@@ -103,7 +104,7 @@ impl<'s> Walk<'s> {
     ) {
         let names = options.iter().map(|o| o.get("const")?.as_str());
         if let Some(names) = names.collect::<Option<Vec<_>>>() {
-            return self.one_of_names(value, names.into_iter(), path);
+            return self.one_of_names(value, names, path);
         }
         if let Some(tagged) = options.iter().map(tag).collect::<Option<Vec<_>>>()
             && let Value::Table(_) = value
@@ -166,13 +167,7 @@ impl<'s> Walk<'s> {
         }
     }
 
-    fn one_of_names<'n>(
-        &mut self,
-        value: &Value,
-        names: impl Iterator<Item = &'n str>,
-        path: &str,
-    ) {
-        let names: Vec<&str> = names.collect();
+    fn one_of_names(&mut self, value: &Value, names: Vec<&str>, path: &str) {
         let expected = comma_list(names.iter().map(|n| format!("`{n}`")));
         match value.as_str() {
             Some(text) if names.contains(&text) => {}

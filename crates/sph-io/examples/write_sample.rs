@@ -55,7 +55,7 @@ fn sample(folder: &Path) -> Result<(), Box<dyn Error>> {
             index,
             pieces: vec![fluid(&points, &velocity), walls(), gate(), no_drops()],
         };
-        let files = series.write(&frame)?;
+        let files = series.write(&frame, 1)?;
         for (piece, file) in frame.pieces.iter().zip(&files) {
             let file = file.strip_prefix(folder)?.display().to_string();
             expected.push(expectation(piece, file, time));

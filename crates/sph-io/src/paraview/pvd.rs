@@ -87,22 +87,15 @@ impl PvdSeries {
         Ok(series)
     }
 
-    /// Writes the pieces of `frame`, lists them, and returns their paths.
+    /// Writes the pieces of `frame`, lists them, and returns their paths. The time must be later than that of the frame
+    /// before.
     ///
-    /// The time must be later than that of the frame before.
+    /// Where several `ranks` write the first piece together, this one's share of it is in the frame; those of the others
+    /// are theirs to [write](crate::write_share).
     ///
     /// # Errors
     /// A file that cannot be written; pieces that do not fit together.
-    pub fn write(&mut self, frame: &Frame) -> Result<Vec<PathBuf>> {
-        self.write_among(frame, 1)
-    }
-
-    /// The same where several `ranks` write the first piece together: this one's share of it is in the frame, those of the
-    /// others are theirs to [write](crate::write_share).
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
-    pub fn write_among(&mut self, frame: &Frame, ranks: usize) -> Result<Vec<PathBuf>> {
+    pub fn write(&mut self, frame: &Frame, ranks: usize) -> Result<Vec<PathBuf>> {
         let refuse = |problem: String| Err(IoError::input(&self.path, problem));
         if let Some(last) = self.entries.last()
             && frame.time.partial_cmp(&last.time) != Some(std::cmp::Ordering::Greater)

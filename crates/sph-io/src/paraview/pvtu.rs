@@ -168,7 +168,7 @@ mod tests {
             index: 0,
             pieces: vec![share(0, 3)],
         };
-        let written = series.write_among(&frame, 2).unwrap();
+        let written = series.write(&frame, 2).unwrap();
         assert!(written[0].ends_with("fields/fluid_000000.pvtu"));
         let (piece, time) = read_piece(&written[0]).unwrap();
         assert_eq!((time, &*piece.name, piece.points.len()), (0.25, "fluid", 5));
