@@ -31,7 +31,6 @@ use serde_json::Value;
 use crate::error::{IoError, Result};
 use crate::files::disk::{Durability, write_atomic};
 
-/// The first bytes of every checkpoint.
 const MAGIC: [u8; 8] = *b"SPHCKPT\0";
 /// The version written and the only one read.
 const VERSION: u32 = 1;
@@ -39,7 +38,6 @@ const VERSION: u32 = 1;
 const PREFIX: u64 = 32;
 /// Longest JSON header, bytes: its content takes many times that in memory.
 const HEADER: u64 = 64 << 20;
-/// Most columns.
 const COLUMNS: usize = 10_000;
 /// Bytes of the checksum at the end.
 const SUFFIX: u64 = 4;
@@ -184,7 +182,6 @@ impl Shape {
     }
 }
 
-/// The JSON header.
 #[derive(Debug, Serialize, Deserialize)]
 struct Header<M> {
     meta: M,

@@ -6,7 +6,6 @@ pub(crate) mod periodic_place;
 pub(crate) mod polygon;
 pub(crate) mod region;
 pub(crate) mod shapes;
-pub(crate) mod sided;
 pub(crate) mod solid;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;

@@ -13,7 +13,6 @@ const STEP: f64 = 0.25;
 const CROWDED: f64 = 0.5;
 /// A velocity below that share of the largest one has no direction.
 const STILL: f64 = 1e-6;
-/// Most points of a line.
 const LONGEST: usize = 20_000;
 
 /// Streamlines of a velocity with three components per particle, some `apart` (m) from each other.

@@ -35,7 +35,6 @@ impl PlotAxis {
     }
 }
 
-/// Two axes around a rectangle.
 #[derive(Clone, Debug)]
 pub(crate) struct Axes {
     pub(crate) frame: Rect,

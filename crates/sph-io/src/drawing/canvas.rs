@@ -15,7 +15,6 @@ use crate::files::disk::write_whole;
 /// Sides in pixels that a picture may have.
 pub(crate) const SIDES: std::ops::RangeInclusive<u32> = 200..=8192;
 
-/// An opaque image, white at first.
 pub(crate) struct Canvas {
     map: Pixmap,
 }

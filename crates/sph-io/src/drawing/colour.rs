@@ -12,19 +12,14 @@ pub struct Colour(
 );
 
 impl Colour {
-    /// Paper.
     pub(crate) const WHITE: Self = Self::hex(0xffffff);
     /// Text and frames.
     pub(crate) const INK: Self = Self::hex(0x262626);
-    /// Walls.
     pub(crate) const WALL: Self = Self::hex(0x3a3a3a);
-    /// Grid lines.
     pub(crate) const FAINT: Self = Self::hex(0xdddddd);
     /// Series in the background of a plot.
     pub(crate) const PALE: Self = Self::hex(0xc4c4c4);
-    /// Colour of highlights in a plot, behind its lines.
     pub(crate) const HIGHLIGHT: Self = Self::hex(0xffe08a);
-    /// Colour of rings around marked particles.
     pub(crate) const RING: Self = Self::hex(0xd0021b);
     /// Particles without a finite value.
     pub(crate) const MISSING: Self = Self::hex(0xff00ff);

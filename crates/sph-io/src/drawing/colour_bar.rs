@@ -32,7 +32,6 @@ impl ColourBar<'_> {
         2.6 * size + self.labels_width(&self.ticks(f64::INFINITY)) + label * size
     }
 
-    /// Draws the bar beside `frame`, as high as that.
     pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
         if !self.classes.is_empty() {

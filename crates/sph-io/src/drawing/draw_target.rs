@@ -7,7 +7,6 @@ use crate::drawing::colour::Colour;
 /// A point on the surface.
 pub(crate) type Spot = [f64; 2];
 
-/// Style of a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pen {
     pub(crate) colour: Colour,
@@ -16,7 +15,6 @@ pub(crate) struct Pen {
     pub(crate) dashed: bool,
 }
 
-/// Fill of an area.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fill {
     pub(crate) colour: Colour,
@@ -32,7 +30,6 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// Style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lettering {
     /// Font size in pixels.

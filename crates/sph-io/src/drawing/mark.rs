@@ -78,7 +78,6 @@ impl Series {
 /// Points beyond which lines are thinned to the visible ones.
 const MANY: usize = 4000;
 
-/// A series with its colour and shape.
 pub(crate) struct Mark<'a> {
     pub(crate) series: &'a Series,
     /// Its place in the list of all series.
@@ -94,7 +93,6 @@ impl Mark<'_> {
         }
     }
 
-    /// True if it is drawn below the others.
     pub(crate) fn is_behind(&self) -> bool {
         let style = &self.series.style;
         matches!(style, Style::Band(_) | Style::Background | Style::Highlight)

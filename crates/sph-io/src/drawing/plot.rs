@@ -88,7 +88,6 @@ impl Plot {
         Ok(())
     }
 
-    /// Draws the plot into a part of a surface.
     fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
         let numbered = self.series.iter().enumerate();

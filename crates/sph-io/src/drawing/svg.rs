@@ -8,7 +8,6 @@ use crate::error::Result;
 use crate::files::disk::write_whole;
 use crate::paraview::xml::escape;
 
-/// An SVG document, white at first.
 pub(crate) struct Svg {
     body: String,
 }

@@ -70,9 +70,6 @@ impl FolderLock {
     }
 
     /// As [`take`](Self::take), of a folder that another process may remove: it is not made again.
-    ///
-    /// # Errors
-    /// [`IoError::InUse`] if another run holds it; if the file in it cannot be made.
     pub(crate) fn take_existing(folder: &Path) -> Result<Self> {
         let path = folder.join(LOCK);
         let failed = |source| IoError::NotWritable(folder.into(), source);

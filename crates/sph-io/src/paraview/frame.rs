@@ -99,7 +99,6 @@ impl FieldValues<'_> {
         }
     }
 
-    /// VTK's name of their type.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::F64(_) => "Float64",

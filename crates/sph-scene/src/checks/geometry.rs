@@ -79,7 +79,6 @@ fn space(scene: &Scene, mut check: TableCheck<'_>) {
     }
 }
 
-/// Checks the change of gravity.
 fn over_time(given: &GravityOverTime, mut check: TableCheck<'_>) {
     let courses = scene_text::given([
         ("sine", given.sine.is_some()),

@@ -21,7 +21,6 @@ pub(crate) const NAMED: [&str; 8] = [
     "gauge",
     "reference",
 ];
-/// Longest name.
 const LONGEST: usize = 64;
 
 /// Names go into the names of columns and files, and into dotted paths.

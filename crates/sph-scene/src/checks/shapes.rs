@@ -69,7 +69,6 @@ fn shape(keys: &BodyShape, check: &mut TableCheck<'_>) {
     }
 }
 
-/// Checks the keys of a shape.
 pub(crate) fn keys_of_shape(keys: &BodyShape, check: &mut TableCheck<'_>) {
     if let Some(corners) = &keys.bounds {
         check.corners("box", corners);

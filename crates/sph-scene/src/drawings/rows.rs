@@ -185,10 +185,7 @@ pub(crate) struct ColumnChoice {
 }
 
 impl ColumnChoice {
-    /// Of a file with these heads, which may be none.
-    ///
-    /// # Errors
-    /// A column that is not there, or a unit that is none of what it holds.
+    /// Of a file with these heads, which may be none, unless a column is not there or a unit is none of what it holds.
     pub fn from_heads(form: &Form, cells: &[&str]) -> Result<Self, String> {
         let heads: Vec<Head> = cells.iter().map(|c| Head::parse(c)).collect();
         let place = |name: &String| {

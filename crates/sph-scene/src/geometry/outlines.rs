@@ -69,9 +69,7 @@ const PASSED: usize = 200_000_000;
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.
-///
-/// # Errors
-/// Why they cannot be turned, and whether that is the number of edges.
+/// Or why they cannot be turned, and whether that is the number of edges.
 pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, (bool, String)> {
     if side == FluidSide::AsDrawn {
         return Ok(lines);
