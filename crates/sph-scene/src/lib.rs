@@ -80,8 +80,8 @@ pub use tables::outlet::{Outlet, Zone};
 pub use tables::output::Output;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
-pub use tables::wall::{Erodible, FluidSide, FrictionForm, SlipCondition, Wall};
-pub use tables::wall_shapes::{
-    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
+pub use tables::wall::{
+    ConeWall, CylinderWall, DiscWall, Erodible, ExtrusionWall, Face, FluidSide, FrictionForm,
+    Rotate, SlipCondition, SphereWall, Wall, Wedge,
 };
 pub use tables::wave::{Heading, LevelSurface, Wave, WaveKind};

@@ -3,7 +3,6 @@
 pub(crate) mod hints;
 pub(crate) mod limits;
 pub(crate) mod load;
-pub(crate) mod one_or_many;
 pub(crate) mod plugins;
 pub(crate) mod renamed;
 pub(crate) mod schema;

@@ -8,5 +8,4 @@ pub(crate) mod output;
 pub(crate) mod reference;
 pub(crate) mod scene;
 pub(crate) mod wall;
-pub(crate) mod wall_shapes;
 pub(crate) mod wave;

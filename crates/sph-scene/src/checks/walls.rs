@@ -8,7 +8,7 @@ use crate::checks::motion;
 use crate::checks::shapes::keys_of_shape;
 use crate::checks::table_check::TableCheck;
 use crate::drawings::format::Format;
-use crate::tables::wall_shapes::{Face, Wedge};
+use crate::tables::wall::{Face, Wedge};
 use crate::{FluidSide, SlipCondition, Wall};
 
 /// Checks everything of a wall that has a place in space.

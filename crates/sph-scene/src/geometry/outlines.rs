@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use sph_core::{BoxTree, bounds};
 
 use crate::geometry::polygon::crosses_ray;
-use crate::tables::wall_shapes::Face;
+use crate::tables::wall::Face;
 use crate::{FluidSide, Polygon};
 
 /// A line of straight edges with the fluid on the left of travel.

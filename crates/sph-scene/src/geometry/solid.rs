@@ -8,7 +8,7 @@ use sph_core::Axis;
 
 use crate::geometry::polygon::{Polygon, triangulate};
 use crate::geometry::vector::{array, unit};
-use crate::tables::wall_shapes::Face;
+use crate::tables::wall::Face;
 
 /// A box without the faces in `open`.
 pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3], open: &[Face]) -> Facets {

@@ -9,7 +9,7 @@ use crate::geometry::outlines::{Line, oriented, rectangle};
 use crate::geometry::solid::{self, sides_of};
 use crate::geometry::vector::{array, point, unit_axis};
 use crate::reading::limits::{LINES, WALL_CORNERS};
-use crate::tables::wall_shapes::{Face, Wedge};
+use crate::tables::wall::{Face, Wedge};
 use crate::{FluidSide, SphereWall, Wall};
 
 /// Curves of drawings become lines within this many spacings.

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer};
 use sph_core::course::Course;
 use sph_core::parameters;
-
-use crate::reading::one_or_many::{OneOrMany, one_or_many};
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
@@ -199,4 +199,26 @@ impl Motion {
             _ => format!("translate[{k}]"),
         }
     }
+}
+
+/// One value or a list.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum OneOrMany<T> {
+    /// One.
+    One(T),
+    /// Several.
+    Many(Vec<T>),
+}
+
+/// The values of such a key.
+pub(crate) fn one_or_many<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    OneOrMany::deserialize(from).map(|given| match given {
+        OneOrMany::One(one) => vec![one],
+        OneOrMany::Many(many) => many,
+    })
 }
