@@ -26,12 +26,10 @@ impl PlotAxis {
     }
 
     pub(crate) fn ticks(&self, wanted: usize) -> Ticks {
-        let ticks = if self.log {
-            ticks::logarithmic
-        } else {
-            ticks::linear
-        };
-        ticks(self.lo, self.hi, wanted)
+        match self.log {
+            true => ticks::logarithmic(self.lo, self.hi, wanted),
+            false => ticks::linear(self.lo, self.hi, wanted),
+        }
     }
 }
 

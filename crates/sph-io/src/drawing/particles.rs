@@ -160,12 +160,7 @@ impl Relief {
                     if !depth[k].is_finite() {
                         continue;
                     }
-                    let along = right == 1;
-                    let (at, side) = if along {
-                        (i, self.width)
-                    } else {
-                        (j, self.height)
-                    };
+                    let (at, side) = [(i, self.width), (j, self.height)][down];
                     let stride = right + down * self.width;
                     let from = k - at.min(reach) * stride;
                     let count = at.min(reach) + 1 + (side - 1 - at).min(reach);

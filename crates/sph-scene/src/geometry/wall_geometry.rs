@@ -307,11 +307,7 @@ impl Wedge {
 }
 
 fn length(line: &Line) -> f64 {
-    let closing = if line.closed {
-        line.points.first()
-    } else {
-        None
-    };
+    let closing = line.points.first().filter(|_| line.closed);
     let ends = line.points.iter().skip(1).chain(closing);
     let edges = line.points.iter().zip(ends);
     edges.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
