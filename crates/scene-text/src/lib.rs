@@ -23,7 +23,6 @@ mod conform;
 mod diagnostic;
 mod editors;
 mod files;
-mod names;
 pub mod number;
 mod overrides;
 mod picture_range;
@@ -38,10 +37,11 @@ pub use conform::{conform, resolved};
 pub use diagnostic::{Diagnostic, Origin};
 pub use editors::{defaults, for_editors};
 pub use files::{decoded, named_files, read_bytes, read_text, within};
-pub use names::{comma_list, is_within, nearest, suggestion};
 pub use overrides::{OnePlugin, Override};
 pub use picture_range::{PictureRange, falling};
-pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
+pub use problem::{
+    MOST_PROBLEMS, Problems, SceneProblem, comma_list, given, is_within, nearest, suggestion,
+};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
 

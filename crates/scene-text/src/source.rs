@@ -301,10 +301,8 @@ mod tests {
         };
         let open = told("a = [[0, 1], [2, 3, [4, 5]]\nb = true\nc = \"x\"\n[d]\ne = 1\n");
         let (line, message) = &open;
-        assert!(
-            *line <= 2 && message.starts_with("an array is not closed"),
-            "{open:?}"
-        );
+        let one = *line <= 2 && message.starts_with("an array is not closed");
+        assert!(one, "{open:?}");
         let comma = told("a = [[1] [2]]\nb = 3\n");
         assert!(comma.1.starts_with("missing comma"), "{comma:?}");
     }

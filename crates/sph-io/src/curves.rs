@@ -17,15 +17,13 @@ use crate::IoError;
 
 mod cloud;
 mod frames;
-mod profile;
 mod streamline;
 mod track;
 
 pub use cloud::{Cloud, Weights};
 pub use frames::{Column, Entry, Frames, Snapshot};
-pub use profile::{Line, draw_profile};
 pub use streamline::{draw_streamlines, streamlines};
-pub use track::{Track, draw_tracks, evenly, nearest, tracks};
+pub use track::{Line, Track, draw_profile, draw_tracks, evenly, nearest, tracks};
 
 type Result<T> = std::result::Result<T, DrawError>;
 

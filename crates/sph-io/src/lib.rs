@@ -31,7 +31,7 @@ pub use drawing::mark::{Series, Style};
 pub use drawing::picture::Picture;
 pub use drawing::plot::{Panels, Plot};
 pub use error::{IoError, Result};
-pub use files::clean::{clean, escaped};
+pub use files::clean::{clean, escape, escaped};
 pub use files::disk::{
     Checksum, checksum, readable, sweep_temporaries, writable, write_json, write_whole,
 };
@@ -44,4 +44,3 @@ pub use paraview::pvd::{PvdSeries, SeriesEntry, list_pvd};
 pub use paraview::pvtu::{read_piece, write_share};
 pub use paraview::vtu::write_vtu;
 pub use paraview::vtu_read::read_vtu;
-pub use paraview::xml::escape;

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Spot};
 use crate::error::Result;
+use crate::files::clean::escape;
 use crate::files::disk::write_whole;
-use crate::paraview::xml::escape;
 
 pub(crate) struct Svg {
     body: String,

@@ -1,4 +1,4 @@
-//! Texts from files, so that a terminal shows them and does not execute them.
+//! Texts from files, so that a terminal shows them and does not execute them, and texts in XML.
 //!
 //! Escape sequences move the cursor, set titles and clear text; marks of direction show a text in
 //! another order than it has. Either may stand in a title, a key, a value or the name of a file.
@@ -51,6 +51,22 @@ fn shown(c: char) -> impl Iterator<Item = char> {
     std::iter::repeat_n(stand_in, times)
 }
 
+/// `text` as it may stand inside a quoted attribute or an element.
+///
+/// Control characters that XML 1.0 forbids become `?`.
+pub fn escape(text: &str) -> Cow<'_, str> {
+    let odd = |c: char| matches!(c, '&' | '<' | '>' | '"' | '\'') || c.is_control();
+    if !text.contains(odd) {
+        return text.into();
+    }
+    let text = text
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;");
+    let text = text.replace('"', "&quot;").replace('\'', "&apos;");
+    text.replace(|c: char| c.is_control(), "?").into()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,5 +87,15 @@ mod tests {
         assert_eq!(back, [hostile]);
         let plain = "η̃ = 1 Pa·s — ½ ≤ √2, 水";
         assert!(matches!(clean(plain), Cow::Borrowed(same) if same == plain));
+    }
+
+    #[test]
+    fn a_reader_of_xml_undoes_it() {
+        let odd = r#"a < b & "c" > 'd' &lt;"#;
+        let text = format!("<a b=\"{0}\">{0}</a>", escape(odd));
+        let read = roxmltree::Document::parse(&text).unwrap();
+        let node = read.root_element();
+        assert_eq!((node.attribute("b"), node.text()), (Some(odd), Some(odd)));
+        assert_eq!(escape("a\u{1}b"), "a?b");
     }
 }

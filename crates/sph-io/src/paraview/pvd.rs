@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
+use crate::files::clean::escape;
 use crate::files::disk::{beside, writable, write_whole};
 use crate::paraview::frame::Frame;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
-use crate::paraview::xml::escape;
 
 /// A time series being written: `fields.pvd` and `fields/fluid_000000.vtu`, …
 #[derive(Debug)]

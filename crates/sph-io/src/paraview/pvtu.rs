@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use roxmltree::Document;
 
 use crate::error::{IoError, Result};
+use crate::files::clean::escape;
 use crate::files::disk::{beside, write_whole};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::vtu::write_vtu;
 use crate::paraview::vtu_read::{piece_name, read_vtu};
-use crate::paraview::xml::escape;
 
 /// Writes a process's share of a piece of frame `index` at `time` (s) into a folder, `fluid_000003_r1.vtu` for rank 1, and
 /// returns its path.

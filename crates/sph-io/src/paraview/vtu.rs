@@ -12,9 +12,9 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 use crate::error::{IoError, Result};
+use crate::files::clean::escape;
 use crate::files::disk::{Durability, write_atomic};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
-use crate::paraview::xml::escape;
 
 /// Bytes per compressed block.
 const BLOCK: usize = 1 << 20;

@@ -113,7 +113,6 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problem
     }
 }
 
-/// Checks that there is a table of a name.
 fn known(what: &str, name: &str, names: &[&String], mut check: TableCheck<'_>) {
     if names.iter().all(|known| *known != name) {
         let near = suggestion(name, names.iter().map(|known| known.as_str()));

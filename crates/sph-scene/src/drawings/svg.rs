@@ -10,7 +10,6 @@ use crate::geometry::outlines::Line;
 
 /// Most elements, texts and comments of a drawing.
 const NODES: u32 = 2_000_000;
-/// Most corners of all lines.
 const CORNERS: usize = 1_000_000;
 /// Largest coordinate, in tolerances.
 const LARGEST: f64 = 1e9;

@@ -3,7 +3,6 @@
 use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::{Table, Value};
 
-/// Most corners of a wall.
 pub(crate) const WALL_CORNERS: usize = 1_000_000;
 /// Most corners of a polygon that is filled.
 pub(crate) const BODY_CORNERS: usize = 10_000;
@@ -35,7 +34,6 @@ const LISTS: [(&[&str], usize); 14] = [
     (&["output", "picture"], TABLES),
 ];
 
-/// Lists and tables that are too long.
 pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     table(scene, "", &[], &mut found);

@@ -211,7 +211,6 @@ pub(crate) enum OneOrMany<T> {
     Many(Vec<T>),
 }
 
-/// The values of such a key.
 pub(crate) fn one_or_many<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
 where
     T: Deserialize<'de>,
