@@ -1,9 +1,9 @@
-//! Holds a TOML value against a JSON schema: unknown keys, types, ranges, units.
+//! Holds a TOML value against a JSON schema: unknown keys, types, ranges, units. Schemas in a form for editors.
 //!
 //! One walk serves the scene and every plugin: it turns "10 kPa" into 10000.0 where the schema
 //! names a unit, and reports every problem with the path of its key and the nearest valid name.
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use toml::Value;
 
 use crate::plausible::{Quantity, Verdict};
@@ -329,6 +329,52 @@ fn wanted_in_its_place(problems: &[SceneProblem], path: &str) -> Option<String> 
     let kind = wanted.strip_prefix("a ");
     let kind = kind.is_some_and(|wanted| kinds.iter().any(|kind| wanted.starts_with(kind)));
     (problem.path == path && kind).then(|| wanted.to_string())
+}
+
+/// Changes the schema of a scene into that of its text: numbers may be strings with a unit, and TOML has no null.
+///
+/// ```
+/// use serde_json::json;
+///
+/// let mut schema = json!({ "type": ["number", "null"] });
+/// scene_text::for_editors(&mut schema);
+/// assert_eq!(schema, json!({ "type": ["number", "string"] }));
+/// ```
+pub fn for_editors(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            for key in ["anyOf", "oneOf"] {
+                if let Some(Json::Array(options)) = object.get_mut(key) {
+                    options.retain(|o| o.get("type") != Some(&json!("null")));
+                }
+            }
+            if let Some(kind) = object.get_mut("type") {
+                let kinds: Vec<Json> = match &*kind {
+                    Json::Array(kinds) => kinds.iter().filter(|k| **k != "null").cloned().collect(),
+                    one => vec![one.clone()],
+                };
+                *kind = match kinds.as_slice() {
+                    [one] if one == "number" => json!(["number", "string"]),
+                    [one] => one.clone(),
+                    several => json!(several),
+                };
+            }
+            object.values_mut().for_each(for_editors);
+        }
+        Json::Array(items) => items.iter_mut().for_each(for_editors),
+        _ => {}
+    }
+}
+
+/// The default of every property that has one, by name.
+pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    let default = |(name, p): (&String, &Json)| Some((name.clone(), p.get("default")?.clone()));
+    properties
+        .into_iter()
+        .flatten()
+        .filter_map(default)
+        .collect()
 }
 
 #[cfg(test)]

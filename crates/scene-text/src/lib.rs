@@ -21,7 +21,6 @@
 
 mod conform;
 mod diagnostic;
-mod editors;
 mod files;
 pub mod number;
 mod overrides;
@@ -33,9 +32,8 @@ mod source;
 #[cfg(feature = "surface")]
 pub mod surface;
 
-pub use conform::{conform, resolved};
+pub use conform::{conform, defaults, for_editors, resolved};
 pub use diagnostic::{Diagnostic, Origin};
-pub use editors::{defaults, for_editors};
 pub use files::{decoded, named_files, read_bytes, read_text, within};
 pub use overrides::{OnePlugin, Override};
 pub use picture_range::{PictureRange, falling};

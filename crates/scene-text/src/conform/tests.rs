@@ -1,7 +1,6 @@
 //! Tests of tables against schemas.
 
 use super::*;
-use serde_json::json;
 
 fn schema() -> Json {
     json!({

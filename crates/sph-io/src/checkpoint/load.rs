@@ -58,7 +58,6 @@ enum ReadFault {
 /// The file, and the checksum of the part that has been read.
 struct Source<R> {
     input: CrcReader<R>,
-    /// Length of the file in bytes.
     length: u64,
 }
 

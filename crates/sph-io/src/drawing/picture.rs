@@ -143,7 +143,6 @@ impl<'a> Picture<'a> {
         Ok(canvas)
     }
 
-    /// The contradiction between parts, in words.
     fn check(&self) -> std::result::Result<(), String> {
         let (points, values) = (self.points.len(), self.values.len());
         let sizes = self.diameters.len();

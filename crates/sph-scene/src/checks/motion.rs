@@ -7,7 +7,6 @@ use crate::drawings::format::Format;
 use crate::geometry::course::ImposedCourse;
 use crate::{Levels, Motion};
 
-/// Checks the vectors, the times and the courses of a motion.
 pub(crate) fn check(motion: &Motion, mut check: TableCheck<'_>) {
     check.vector("velocity", &motion.velocity);
     check.vector("centre", &motion.centre);

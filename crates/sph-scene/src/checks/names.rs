@@ -210,7 +210,6 @@ fn measured(reference: &Reference, check: &mut TableCheck<'_>) {
     }
 }
 
-/// The named tables of a table.
 pub(crate) fn inside(value: Option<&Value>) -> impl Iterator<Item = (&String, &Value)> {
     value.and_then(Value::as_table).into_iter().flatten()
 }

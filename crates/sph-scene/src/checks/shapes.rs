@@ -5,7 +5,6 @@ use crate::checks::table_check::TableCheck;
 use crate::tables::body::BodyShape;
 use crate::{Body, Pressure, Scene};
 
-/// Checks the keys of a body in space.
 pub(crate) fn body_geometry(scene: &Scene, body: &Body, mut check: TableCheck<'_>) {
     let filling = body.fill.is_some();
     if filling {

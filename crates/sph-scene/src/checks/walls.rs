@@ -11,7 +11,6 @@ use crate::drawings::format::Format;
 use crate::tables::wall::{Face, Wedge};
 use crate::{FluidSide, SlipCondition, Wall};
 
-/// Checks everything of a wall that has a place in space.
 pub(crate) fn wall_geometry(wall: &Wall, mut check: TableCheck<'_>) {
     let all = match check.dimension {
         2 => "`polyline`, `polygon`, `disc`, `box`, `wedge` or `file`",
@@ -50,7 +49,6 @@ fn moves(wall: &Wall) -> bool {
     wall.motion.is_some() || !wall.mover.is_empty() || wall.velocity.is_some()
 }
 
-/// The keys of a wall's condition.
 fn condition(wall: &Wall, check: &mut TableCheck<'_>) {
     let partial = wall.condition == SlipCondition::PartialSlip;
     let message = "`partial-slip` needs the key `slip_length`";

@@ -6,7 +6,6 @@ use crate::{Outlet, Scene, Zone};
 /// Finest ratio of a zone.
 const FINEST: f64 = 0.125;
 
-/// Checks every zone, and any two.
 pub(crate) fn check_zones(scene: &Scene, mut check: TableCheck<'_>) {
     let before = check.found.0.len();
     for (name, zone) in &scene.zone {
@@ -47,7 +46,6 @@ fn overlap(a: &Zone, b: &Zone) -> bool {
     (0..a[0].len()).all(|k| a[0][k] < b[1][k] && b[0][k] < a[1][k])
 }
 
-/// Checks the geometry of an outlet.
 pub(crate) fn outlet(outlet: &Outlet, mut check: TableCheck<'_>) {
     let one = [outlet.bounds.is_some(), outlet.beyond.is_some()];
     let neither = "the key `box` or `beyond` is missing: where particles leave";

@@ -77,7 +77,6 @@ pub(crate) fn crossing(edges: &[Edge], closed: bool) -> Option<SegmentCrossing> 
     searched(edges, closed).0
 }
 
-/// Two ends.
 pub(crate) type Edge = ([f64; 2], [f64; 2]);
 
 /// Two segments, by number, and the place where they meet.

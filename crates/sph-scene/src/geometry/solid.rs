@@ -89,7 +89,6 @@ pub(crate) fn cylinder(from: [f64; 3], to: [f64; 3], flat: &[[f64; 2]], open_end
     surface.finish()
 }
 
-/// A cone over a ring.
 pub(crate) fn cone(base: [f64; 3], apex: [f64; 3], flat: &[[f64; 2]]) -> Facets {
     let shifts = ring_about(&minus(&apex, &base), flat);
     let mut bottom = shifted(&base, &shifts);

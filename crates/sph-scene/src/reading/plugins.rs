@@ -105,7 +105,6 @@ pub(crate) fn probes<'t, T: Into<Value> + Clone + 't>(
     tables.into_iter().filter_map(choice).collect()
 }
 
-/// The solutions of the references of a scene.
 pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
     let all = scene.get("reference").and_then(Value::as_table);
     let choice = |(reference, given): (&String, &Value)| {
@@ -123,7 +122,6 @@ pub(crate) fn solution(reference: &str, name: String, table: Table) -> PluginCho
     plugin_choice("solution", name, table, places)
 }
 
-/// A choice with the places of its table and of its name.
 fn plugin_choice(
     kind: &'static str,
     name: String,

@@ -161,7 +161,6 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     }
 }
 
-/// The nature of the law of a phase.
 fn law(scene: &Scene, phase: &str) -> LawNature {
     let known = scene.choice_in("rheology", phase).and_then(|choice| {
         let mut all = inventory::iter::<LawNatures>.into_iter();
