@@ -14,6 +14,7 @@ use sph_core::{Place, SceneProblem, comma_list, kinds};
 use toml::{Table, Value};
 
 use crate::checks::names::inside;
+use crate::checks::table_check::TableCheck;
 use crate::reading::plugins::holders;
 use crate::{Scene, Source};
 
@@ -48,9 +49,14 @@ fn single(plugins: &Value, path: &str, found: &mut Problems) {
 /// Checks of a scene whose form is right; also fills in the paths of its files.
 pub(crate) fn scene(scene: &mut Scene, source: &Source) -> Vec<SceneProblem> {
     let mut found = Problems::default();
-    names::references(scene, source, &mut found);
-    times(scene, &mut found);
-    geometry::check(scene, &mut found);
+    let mut whole = TableCheck {
+        path: String::new(),
+        dimension: scene.dimension,
+        found: &mut found,
+    };
+    names::references(scene, source, &mut whole);
+    times(scene, whole.found);
+    geometry::check(scene, &mut whole);
     found.0
 }
 

@@ -1,7 +1,5 @@
 //! Vectors, shapes, walls and periodic boxes.
 
-use scene_text::Problems;
-
 use crate::checks::bodies::{apart, within_bounds};
 use crate::checks::motion;
 use crate::checks::shapes::body_geometry;
@@ -11,13 +9,8 @@ use crate::checks::zones::{check_zones, outlet};
 use crate::{GravityOverTime, Motion, Scene};
 
 /// Checks everything that has a place in space.
-pub(crate) fn check(scene: &Scene, found: &mut Problems) {
-    let before = found.0.len();
-    let mut whole = TableCheck {
-        path: String::new(),
-        dimension: scene.dimension,
-        found,
-    };
+pub(crate) fn check(scene: &Scene, whole: &mut TableCheck<'_>) {
+    let before = whole.found.0.len();
     space(scene, whole.below("numerics"));
     for (name, wall) in &scene.wall {
         wall_geometry(wall, whole.below(&format!("wall.{name}")));
@@ -34,8 +27,8 @@ pub(crate) fn check(scene: &Scene, found: &mut Problems) {
     check_zones(scene, whole.below("zone"));
     if whole.found.0.len() == before {
         match scene.dimension {
-            2 => places::<2>(scene, &mut whole),
-            _ => places::<3>(scene, &mut whole),
+            2 => places::<2>(scene, whole),
+            _ => places::<3>(scene, whole),
         }
     }
 }

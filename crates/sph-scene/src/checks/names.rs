@@ -53,12 +53,7 @@ pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
 }
 
 /// Everything that is named exists; files are where a scene may name them.
-pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problems) {
-    let mut whole = TableCheck {
-        path: String::new(),
-        dimension: scene.dimension,
-        found,
-    };
+pub(crate) fn references(scene: &mut Scene, source: &Source, whole: &mut TableCheck<'_>) {
     let moved = scene.wall.values().any(|wall| !wall.mover.is_empty());
     let bare = scene.body.is_empty() && !moved;
     whole.refuse(bare, "", "a scene needs a body: [body.NAME]");
