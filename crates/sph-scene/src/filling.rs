@@ -47,7 +47,7 @@ pub fn fill<const D: usize>(
     let mut filled = Vec::with_capacity(bodies.len());
     for (body, region) in placed.iter().enumerate() {
         let mut positions = Vec::new();
-        for node in Nodes::new(region, spacing, offset).iter() {
+        for node in nodes(region, spacing, offset) {
             let depth = region.depth(&node);
             if depth >= firm {
                 positions.push(wrapped(&node, periodic));
@@ -97,59 +97,36 @@ pub enum Offset {
     Half,
 }
 
-impl Offset {
-    /// The offset as a fraction of the spacing.
-    pub fn shift(self) -> f64 {
-        match self {
-            Offset::None => 0.0,
-            Offset::Half => 0.5,
+/// Nodes lo + (k + shift)·δr for k below the count, along every axis, the first axis running slowest.
+fn nodes<const D: usize>(
+    placed: &PeriodicRegion<'_, D>,
+    spacing: f64,
+    offset: Offset,
+) -> impl Iterator<Item = [f64; D]> {
+    let (lo, hi) = placed.bounds();
+    let spans = placed.spans();
+    let shift = if offset == Offset::Half { 0.5 } else { 0.0 };
+    let length = |k: usize| (hi[k] - lo[k]) / spacing;
+    let whole = |k: usize| length(k).round().max(1.0);
+    let counts: [usize; D] = std::array::from_fn(|k| match (spans[k], offset) {
+        (true, _) => whole(k) as usize,
+        (false, Offset::None) => (length(k) + ROUNDING).floor() as usize + 1,
+        (false, Offset::Half) => (length(k) + 0.5).ceil() as usize,
+    });
+    let step: [f64; D] = std::array::from_fn(|k| match spans[k] {
+        true => (hi[k] - lo[k]) / whole(k),
+        false => spacing,
+    });
+    let origin: [f64; D] = std::array::from_fn(|k| lo[k] + shift * step[k]);
+    (0..counts.iter().product()).map(move |number| {
+        let mut rest: usize = number;
+        let mut node = origin;
+        for k in (0..D).rev() {
+            node[k] += (rest % counts[k]) as f64 * step[k];
+            rest /= counts[k];
         }
-    }
-}
-
-/// Nodes lo + (k + shift)·δr for k below the count, along every axis.
-pub(crate) struct Nodes<const D: usize> {
-    origin: [f64; D],
-    step: [f64; D],
-    counts: [usize; D],
-}
-
-impl<const D: usize> Nodes<D> {
-    pub fn new(placed: &PeriodicRegion<'_, D>, spacing: f64, offset: Offset) -> Self {
-        let (lo, hi) = placed.bounds();
-        let spans = placed.spans();
-        let shift = offset.shift();
-        let length = |k: usize| (hi[k] - lo[k]) / spacing;
-        let whole = |k: usize| length(k).round().max(1.0);
-        let counts = |k: usize| match (spans[k], offset) {
-            (true, _) => whole(k) as usize,
-            (false, Offset::None) => (length(k) + ROUNDING).floor() as usize + 1,
-            (false, Offset::Half) => (length(k) + 0.5).ceil() as usize,
-        };
-        let step = |k: usize| match spans[k] {
-            true => (hi[k] - lo[k]) / whole(k),
-            false => spacing,
-        };
-        let step: [f64; D] = std::array::from_fn(step);
-        Nodes {
-            origin: std::array::from_fn(|k| lo[k] + shift * step[k]),
-            step,
-            counts: std::array::from_fn(counts),
-        }
-    }
-
-    /// Every node, the first axis running slowest.
-    pub fn iter(&self) -> impl Iterator<Item = [f64; D]> + '_ {
-        (0..self.counts.iter().product()).map(|number| {
-            let mut rest: usize = number;
-            let mut node = self.origin;
-            for k in (0..D).rev() {
-                node[k] += (rest % self.counts[k]) as f64 * self.step[k];
-                rest /= self.counts[k];
-            }
-            node
-        })
-    }
+        node
+    })
 }
 
 /// About how many particles [`fill`](crate::fill) will place, from the boxes around the bodies.

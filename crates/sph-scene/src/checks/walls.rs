@@ -183,9 +183,8 @@ fn ramp(wedge: &Wedge, mut check: TableCheck<'_>) {
 
 /// The name of a file gives its kind.
 fn geometry_file(file: &str, check: &mut TableCheck<'_>) {
-    let holds = Format::from_name(file).map(Format::dimension);
-    let message = match (check.dimension, holds) {
-        (2, Some(2)) | (3, Some(3)) => return,
+    let message = match (check.dimension, Format::from_name(file)) {
+        (2, Some(Format::Svg | Format::Table)) | (3, Some(Format::Stl)) => return,
         (2, Some(_)) => {
             "an STL file is a wall of three dimensions, and this scene has two: give a .svg or .csv file".to_string()
         }

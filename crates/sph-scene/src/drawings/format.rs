@@ -32,11 +32,6 @@ impl Format {
         let found = ENDINGS.iter().find(|(e, _)| e.eq_ignore_ascii_case(ending));
         found.map(|(_, format)| *format)
     }
-
-    /// Dimension of its walls.
-    pub fn dimension(self) -> usize {
-        if self == Format::Stl { 3 } else { 2 }
-    }
 }
 
 /// The lines of a file, with curves within `tolerance`; any but a drawing is taken for a table of the form.
