@@ -1,14 +1,14 @@
-//! Holds a TOML value against a JSON schema: unknown keys, types, ranges, units.
+//! Holds a TOML value against a JSON schema: unknown keys, types, ranges, units. Schemas in a form for editors.
 //!
 //! One walk serves the scene and every plugin: it turns "10 kPa" into 10000.0 where the schema
 //! names a unit, and reports every problem with the path of its key and the nearest valid name.
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use toml::Value;
 
 use crate::plausible::{Quantity, Verdict};
 use crate::problem::describe;
-use crate::{MOST_PROBLEMS, SceneProblem, parse_quantity, suggestion};
+use crate::{MOST_PROBLEMS, SceneProblem, comma_list, parse_quantity, suggestion};
 
 /// Checks `value` against `schema` and converts quantities to SI in place; returns remarks on numbers outside the range
 /// of nature ([`plausible`](crate::plausible)), at most [`MOST_PROBLEMS`].
@@ -28,6 +28,13 @@ pub fn conform(value: &mut Value, schema: &Json) -> Result<Vec<SceneProblem>, Ve
     }
 }
 
+/// The part of a schema that a part refers to; the part itself if it refers to none.
+pub fn resolved<'s>(root: &'s Json, part: &'s Json) -> &'s Json {
+    let target = part.get("$ref").and_then(Json::as_str);
+    let target = target.and_then(|r| root.pointer(r.strip_prefix('#')?));
+    target.unwrap_or(part)
+}
+
 struct Walk<'s> {
     root: &'s Json,
     problems: Vec<SceneProblem>,
@@ -35,14 +42,13 @@ struct Walk<'s> {
 }
 
 impl<'s> Walk<'s> {
-    fn resolve(&self, schema: &'s Json) -> &'s Json {
-        let target = schema.get("$ref").and_then(Json::as_str);
-        let target = target.and_then(|r| self.root.pointer(r.strip_prefix('#')?));
-        target.unwrap_or(schema)
-    }
-
     fn problem(&mut self, path: &str, message: String) {
         self.problems.push(SceneProblem::new(path, message));
+    }
+
+    fn expected(&mut self, path: &str, wanted: &str, value: &Value) {
+        let found = describe(value);
+        self.problem(path, format!("expected {wanted}, found {found}"));
     }
 
     /// True if no further problem is reported.
@@ -55,7 +61,7 @@ impl<'s> Walk<'s> {
             return;
         }
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
-        let schema = self.resolve(schema);
+        let schema = resolved(self.root, schema);
         let unit = schema.get("unit").and_then(Json::as_str).or(unit);
         for key in ["anyOf", "oneOf"] {
             if let Some(options) = schema.get(key).and_then(Json::as_array) {
@@ -63,10 +69,11 @@ impl<'s> Walk<'s> {
             }
         }
         if let Some(allowed) = schema.get("enum").and_then(Json::as_array) {
-            return self.one_of_names(value, allowed.iter().filter_map(Json::as_str), path);
+            let names = allowed.iter().filter_map(Json::as_str);
+            return self.one_of_names(value, names.collect(), path);
         }
         if let Some(name) = schema.get("const").and_then(Json::as_str) {
-            return self.one_of_names(value, std::iter::once(name), path);
+            return self.one_of_names(value, vec![name], path);
         }
         let kind = match schema.get("type") {
             Some(Json::String(kind)) => Some(kind.as_str()),
@@ -81,10 +88,7 @@ impl<'s> Walk<'s> {
             Some("boolean") if value.as_bool().is_none() => {
                 self.problem(path, "expected true or false".into());
             }
-            Some("string") if value.as_str().is_none() => {
-                let found = describe(value);
-                self.problem(path, format!("expected a string, found {found}"));
-            }
+            Some("string") if value.as_str().is_none() => self.expected(path, "a string", value),
             Some("array") => self.array(value, schema, path, unit),
             Some("object") => self.object(value, schema, path),
             _ => {}
@@ -100,7 +104,7 @@ impl<'s> Walk<'s> {
     ) {
         let names = options.iter().map(|o| o.get("const")?.as_str());
         if let Some(names) = names.collect::<Option<Vec<_>>>() {
-            return self.one_of_names(value, names.into_iter(), path);
+            return self.one_of_names(value, names, path);
         }
         if let Some(tagged) = options.iter().map(tag).collect::<Option<Vec<_>>>()
             && let Value::Table(_) = value
@@ -134,8 +138,7 @@ impl<'s> Walk<'s> {
         match wanted.into_iter().collect::<Option<Vec<_>>>() {
             Some(mut all) if all.len() > 1 => {
                 all.dedup();
-                let (wanted, found) = (all.join(" or "), describe(value));
-                self.problem(path, format!("expected {wanted}, found {found}"));
+                self.expected(path, &all.join(" or "), value);
             }
             _ => self.problems.extend(first.unwrap_or_default()),
         }
@@ -146,10 +149,9 @@ impl<'s> Walk<'s> {
         let key = kinds[0].0;
         let mut names: Vec<_> = kinds.iter().map(|(_, name, _)| *name).collect();
         names.sort_unstable();
-        let known = || names.join(", ");
+        let known = names.join(", ");
         let Some(kind) = value.get(key).and_then(Value::as_str) else {
-            let message = format!("the key `{key}` is missing: one of {}", known());
-            return self.problem(path, message);
+            return self.problem(path, format!("the key `{key}` is missing: one of {known}"));
         };
         match kinds.iter().find(|(_, name, _)| *name == kind) {
             Some((_, _, schema)) => self.object(value, schema, path),
@@ -158,7 +160,6 @@ impl<'s> Walk<'s> {
                 // `probe.NAME` is a probe.
                 let what = path.split('.').next().filter(|root| !root.is_empty());
                 let what = what.unwrap_or("table");
-                let known = known();
                 let message =
                     format!("there is no {what} of the {key} `{kind}`{near} (there are: {known})");
                 self.problem(&joined(path, key), message);
@@ -166,15 +167,8 @@ impl<'s> Walk<'s> {
         }
     }
 
-    fn one_of_names<'n>(
-        &mut self,
-        value: &Value,
-        names: impl Iterator<Item = &'n str>,
-        path: &str,
-    ) {
-        let names: Vec<&str> = names.collect();
-        let expected: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-        let expected = expected.join(", ");
+    fn one_of_names(&mut self, value: &Value, names: Vec<&str>, path: &str) {
+        let expected = comma_list(names.iter().map(|n| format!("`{n}`")));
         match value.as_str() {
             Some(text) if names.contains(&text) => {}
             Some(text) => {
@@ -194,10 +188,7 @@ impl<'s> Walk<'s> {
                 Ok(x) => x,
                 Err(why) => return self.problem(path, why),
             },
-            other => {
-                let found = describe(other);
-                return self.problem(path, format!("expected a number{of}, found {found}"));
-            }
+            other => return self.expected(path, &format!("a number{of}"), other),
         };
         if !number.is_finite() {
             let message = format!("expected a finite number{of}, found {number}");
@@ -214,10 +205,7 @@ impl<'s> Walk<'s> {
     fn integer(&mut self, value: &mut Value, schema: &Json, path: &str) {
         match value {
             Value::Integer(i) => self.range(*i as f64, schema, path, None),
-            other => {
-                let found = describe(other);
-                self.problem(path, format!("expected a whole number, found {found}"));
-            }
+            other => self.expected(path, "a whole number", other),
         }
     }
 
@@ -253,8 +241,7 @@ impl<'s> Walk<'s> {
 
     fn array(&mut self, value: &mut Value, schema: &'s Json, path: &str, unit: Option<&'s str>) {
         let Value::Array(items) = value else {
-            let found = describe(value);
-            return self.problem(path, format!("expected a list, found {found}"));
+            return self.expected(path, "a list", value);
         };
         let count = |key: &str| schema.get(key).and_then(Json::as_u64).map(|n| n as usize);
         let (least, most) = (count("minItems"), count("maxItems"));
@@ -280,8 +267,7 @@ impl<'s> Walk<'s> {
 
     fn object(&mut self, value: &mut Value, schema: &'s Json, path: &str) {
         let Value::Table(table) = value else {
-            let found = describe(value);
-            return self.problem(path, format!("expected a table, found {found}"));
+            return self.expected(path, "a table", value);
         };
         let join = |key: &str| joined(path, key);
         let properties = schema.get("properties").and_then(Json::as_object);
@@ -295,8 +281,7 @@ impl<'s> Walk<'s> {
                 (None, Some(Json::Bool(false))) => {
                     let names = || properties.into_iter().flatten().map(|(n, _)| n.as_str());
                     let near = suggestion(key, names());
-                    let known = names().collect::<Vec<_>>().join(", ");
-                    let known = match known.as_str() {
+                    let known = match comma_list(names()).as_str() {
                         "" => "none is taken here".to_string(),
                         list => format!("valid here: {list}"),
                     };
@@ -344,6 +329,52 @@ fn wanted_in_its_place(problems: &[SceneProblem], path: &str) -> Option<String> 
     let kind = wanted.strip_prefix("a ");
     let kind = kind.is_some_and(|wanted| kinds.iter().any(|kind| wanted.starts_with(kind)));
     (problem.path == path && kind).then(|| wanted.to_string())
+}
+
+/// Changes the schema of a scene into that of its text: numbers may be strings with a unit, and TOML has no null.
+///
+/// ```
+/// use serde_json::json;
+///
+/// let mut schema = json!({ "type": ["number", "null"] });
+/// scene_text::for_editors(&mut schema);
+/// assert_eq!(schema, json!({ "type": ["number", "string"] }));
+/// ```
+pub fn for_editors(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            for key in ["anyOf", "oneOf"] {
+                if let Some(Json::Array(options)) = object.get_mut(key) {
+                    options.retain(|o| o.get("type") != Some(&json!("null")));
+                }
+            }
+            if let Some(kind) = object.get_mut("type") {
+                let kinds: Vec<Json> = match &*kind {
+                    Json::Array(kinds) => kinds.iter().filter(|k| **k != "null").cloned().collect(),
+                    one => vec![one.clone()],
+                };
+                *kind = match kinds.as_slice() {
+                    [one] if one == "number" => json!(["number", "string"]),
+                    [one] => one.clone(),
+                    several => json!(several),
+                };
+            }
+            object.values_mut().for_each(for_editors);
+        }
+        Json::Array(items) => items.iter_mut().for_each(for_editors),
+        _ => {}
+    }
+}
+
+/// The default of every property that has one, by name.
+pub fn defaults(schema: &Json) -> Vec<(String, Json)> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    let default = |(name, p): (&String, &Json)| Some((name.clone(), p.get("default")?.clone()));
+    properties
+        .into_iter()
+        .flatten()
+        .filter_map(default)
+        .collect()
 }
 
 #[cfg(test)]

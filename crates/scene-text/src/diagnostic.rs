@@ -42,7 +42,7 @@ impl fmt::Display for Diagnostic {
 }
 
 /// Line and column, from 1, of a byte; a byte past the end counts as the end.
-pub fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
+pub(crate) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     let byte = floor_char(text, byte);
     let before = &text[..byte];
     let start = before.rfind('\n').map_or(0, |n| n + 1);

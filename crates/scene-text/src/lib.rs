@@ -21,13 +21,9 @@
 
 mod conform;
 mod diagnostic;
-mod editors;
 mod files;
-mod locate;
-mod names;
 pub mod number;
 mod overrides;
-mod paths;
 mod picture_range;
 pub mod plausible;
 mod problem;
@@ -35,20 +31,17 @@ mod quantity;
 mod source;
 #[cfg(feature = "surface")]
 pub mod surface;
-mod text;
 
-pub use conform::conform;
-pub use diagnostic::{Diagnostic, Origin, line_and_column};
-pub use editors::{defaults, for_editors};
-pub use files::named_files;
-pub use names::{comma_list, is_within, nearest, suggestion};
+pub use conform::{conform, defaults, for_editors, resolved};
+pub use diagnostic::{Diagnostic, Origin};
+pub use files::{decoded, named_files, read_bytes, read_text, within};
 pub use overrides::{OnePlugin, Override};
-pub use paths::{PathProblem, within};
-pub use picture_range::PictureRange;
-pub use problem::{MOST_PROBLEMS, Problems, SceneProblem, given};
+pub use picture_range::{PictureRange, falling};
+pub use problem::{
+    MOST_PROBLEMS, Problems, SceneProblem, comma_list, given, is_within, nearest, suggestion,
+};
 pub use quantity::{Dimensions, parse_quantity, parse_unit, unit_factor};
 pub use source::Source;
-pub use text::{FILE_BYTES, read_bytes, read_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

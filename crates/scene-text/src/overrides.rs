@@ -21,9 +21,8 @@ fn single() -> Vec<Vec<&'static str>> {
 
 /// A value for a key of the scene in place of that of the file.
 ///
-/// The value is TOML; text that is not TOML is taken as a string, so that a shell needs no second
-/// pair of quotes. Setting another plugin where a scene has exactly one replaces the present
-/// one: `kernel.wendland-c4={}`.
+/// The value is TOML; text that is not TOML is taken as a string, so that a shell needs no second pair of quotes.
+/// Setting another plugin where a scene has exactly one replaces the present one: `kernel.wendland-c4={}`.
 ///
 /// ```
 /// use scene_text::Override;

@@ -46,19 +46,19 @@ impl PictureRange {
     /// A problem for each pair whose first value is not less than its second, by the key under `path`.
     #[must_use]
     pub fn falling(&self, path: &str) -> Vec<SceneProblem> {
-        let pairs = match self {
-            PictureRange::All(range) => vec![(path.to_string(), *range)],
+        match self {
+            PictureRange::All(range) => falling(path.into(), *range).into_iter().collect(),
             PictureRange::ByField(ranges) => {
-                let ranges = ranges.iter();
-                let paths = ranges.map(|(field, range)| (format!("{path}.{field}"), *range));
-                paths.collect()
+                let each = ranges.iter();
+                each.filter_map(|(field, range)| falling(format!("{path}.{field}"), *range))
+                    .collect()
             }
-        };
-        let falling = pairs.into_iter().filter(|(_, [low, high])| low >= high);
-        let told = falling.map(|(path, [low, high])| {
-            let message = format!("the first must be less than the second, found {low} and {high}");
-            SceneProblem::new(path, message)
-        });
-        told.collect()
+        }
     }
+}
+
+/// A problem if the first value is not less than the second.
+pub fn falling(path: String, [low, high]: [f64; 2]) -> Option<SceneProblem> {
+    let message = format!("the first must be less than the second, found {low} and {high}");
+    (low >= high).then(|| SceneProblem::new(path, message))
 }

@@ -4,6 +4,8 @@
 //! A key has the quantity that its schema names (`"quantity" = "spacing"`), or else that of its unit. Signs do not
 //! count, and zero is left to the range of the key. Bounds leave room for scenes without units.
 
+use std::sync::LazyLock;
+
 use crate::number::plain;
 
 /// Bounds of one quantity; the second pair is that of nature, with its description.
@@ -25,191 +27,16 @@ pub struct Quantity {
     pub refusal: &'static str,
 }
 
-/// Products of a step, such as ρδr³, ρc² and their squares, stay within 10^±308 if every factor is within this.
-const RANGE: [f64; 2] = [1e-50, 1e50];
-const RANGE_TEXT: &str = "powers and products of it would leave the range of numbers";
-
-const fn signed(name: &'static str, unit: &'static str, high: (f64, &'static str)) -> Quantity {
-    Quantity {
-        name,
-        unit,
-        least: 0.0,
-        low: (0.0, ""),
-        high,
-        most: RANGE[1],
-        refusal: RANGE_TEXT,
-    }
-}
-
-const fn positive(
-    name: &'static str,
-    unit: &'static str,
-    low: (f64, &'static str),
-    high: (f64, &'static str),
-) -> Quantity {
-    Quantity {
-        least: RANGE[0],
-        low,
-        ..signed(name, unit, high)
-    }
-}
+/// The reason where the table has none: products of a step, such as ρδr³, ρc² and their squares, stay within 10^±308 if
+/// every factor is within 10^±50.
+const RANGE: &str = "powers and products of it would leave the range of numbers";
 
 /// Every quantity with bounds. The first of a unit is that of keys which name none.
-pub const QUANTITIES: [Quantity; 20] = [
-    positive(
-        "density",
-        "kg/m³",
-        (
-            1e-4,
-            "air 65 km up, 1.6e-4 kg/m³ (US Standard Atmosphere 1976)",
-        ),
-        (
-            1e10,
-            "white dwarfs, 2e9 kg/m³ (Holberg et al. 1998); a clamp may be as heavy",
-        ),
-    ),
-    signed(
-        "speed",
-        "m/s",
-        (1e5, "the fastest meteors, 72 km/s (Ceplecha et al. 1998)"),
-    ),
-    // Numerical speeds of sound are ten times those of the flow, and flows creep.
-    positive(
-        "speed of sound",
-        "m/s",
-        (
-            1e-9,
-            "the Earth's mantle creeps at 1e-9 m/s (Turcotte & Schubert 2014)",
-        ),
-        (
-            4e4,
-            "no solid or fluid has more than 36 km/s (Trachenko et al. 2020)",
-        ),
-    ),
-    signed("length", "m", (4.1e7, "the Earth's circumference, 4.0e7 m")),
-    positive(
-        "spacing",
-        "m",
-        (
-            1e-9,
-            "below three molecules of water, 3e-10 m each, is no continuum",
-        ),
-        (4.1e7, "the Earth's circumference, 4.0e7 m"),
-    ),
-    signed(
-        "time",
-        "s",
-        (4.4e17, "the age of the universe (Planck 2018)"),
-    ),
-    signed(
-        "acceleration",
-        "m/s²",
-        (
-            2e7,
-            "the fastest centrifuges, a million times gravity (Svedberg & Pedersen 1940)",
-        ),
-    ),
-    signed(
-        "pressure or stress",
-        "Pa",
-        (
-            1e13,
-            "the highest static pressure of a laboratory, 1e12 Pa (Dubrovinskaia et al. 2016)",
-        ),
-    ),
-    positive(
-        "modulus",
-        "Pa",
-        (1e-3, "the softest gels, some 0.1 Pa"),
-        (2e12, "diamond, 1.2e12 Pa (CRC Handbook)"),
-    ),
-    Quantity {
-        low: (1e-7, "hydrogen at 20 K, 1e-6 Pa s (CRC Handbook)"),
-        ..signed(
-            "viscosity",
-            "Pa s",
-            (
-                1e24,
-                "the Earth's lower mantle, 1e23 Pa s (Mitrovica & Forte 2004)",
-            ),
-        )
-    },
-    signed(
-        "kinematic viscosity",
-        "m²/s",
-        (
-            1e21,
-            "the Earth's mantle, 1e20 m²/s (Turcotte & Schubert 2014)",
-        ),
-    ),
-    Quantity {
-        low: (1e-10, "phases of colloids, some nN/m (Aarts et al. 2004)"),
-        ..signed(
-            "surface tension",
-            "N/m",
-            (1e3, "liquid rhenium, 2.7 N/m (Keene 1993)"),
-        )
-    },
-    signed("permeability", "m²", (1e3, "gravel, 1e-7 m² (Bear 1972)")),
-    signed(
-        "strain rate",
-        "1/s",
-        (1e15, "the vibrations of molecules, 1e14 1/s"),
-    ),
-    Quantity {
-        most: 1e15,
-        refusal: "doubles of such a size are a tenth of a radian apart",
-        ..signed("angle", "rad", (f64::INFINITY, ""))
-    },
-    signed(
-        "angular velocity",
-        "rad/s",
-        (1e11, "beads spun by light, 3e10 rad/s (Ahn et al. 2020)"),
-    ),
-    // Values from the axis `smoothing-down` of the study of stability.
-    Quantity {
-        name: "smoothing ratio",
-        unit: "",
-        least: 0.472,
-        low: (
-            1.0,
-            "velocities are 5 % wrong at 0.8 (docs/validation/stability.md)",
-        ),
-        high: (6.0, "particles smooth over more than they resolve"),
-        most: 20.0,
-        refusal: "even the widest kernel, 3 h, would reach the nearest neighbours along the axes only, √2 spacings",
-    },
-    Quantity {
-        name: "kernel support over the spacing",
-        unit: "",
-        least: 1.414,
-        low: (
-            std::f64::consts::SQRT_2,
-            "the neighbours across the squares of a lattice",
-        ),
-        high: (f64::INFINITY, ""),
-        most: f64::INFINITY,
-        refusal: "sums over the nearest neighbours along the axes alone feel no shear; take a larger `smoothing_ratio`",
-    },
-    Quantity {
-        name: "distance over the spacing",
-        unit: "",
-        least: 0.0,
-        low: (0.0, ""),
-        high: (1e12, ""),
-        most: 1e12,
-        refusal: "positions there are rounded to more than a ten-thousandth of a spacing",
-    },
-    Quantity {
-        name: "safety factor",
-        unit: "",
-        least: 1e-9,
-        low: (1e-4, "ten thousand times the steps of a stable run"),
-        high: (1.0, ""),
-        most: 1.0,
-        refusal: "the run would need a billion times the steps of a stable one",
-    },
-];
+static QUANTITIES: LazyLock<Vec<Quantity>> = LazyLock::new(|| {
+    let rows = include_str!("plausible.txt").lines();
+    let rows = rows.filter(|row| !row.starts_with('#'));
+    rows.filter_map(Quantity::from_row).collect()
+});
 
 /// The remark on a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -223,6 +50,35 @@ pub enum Verdict {
 }
 
 impl Quantity {
+    /// The quantity of a row of the table.
+    fn from_row(row: &'static str) -> Option<Quantity> {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let &[
+            name,
+            unit,
+            least,
+            low,
+            smallest,
+            high,
+            largest,
+            most,
+            refusal,
+        ] = &cells[..]
+        else {
+            return None;
+        };
+        let number = |cell: &str| cell.parse::<f64>().ok();
+        Some(Quantity {
+            name,
+            unit,
+            least: number(least)?,
+            low: (number(low)?, smallest),
+            high: (number(high)?, largest),
+            most: number(most)?,
+            refusal: if refusal.is_empty() { RANGE } else { refusal },
+        })
+    }
+
     /// The quantity of a key: the one that its schema names, or else the first of its unit.
     pub fn find(name: Option<&str>, unit: Option<&str>) -> Option<&'static Quantity> {
         let named = |n| QUANTITIES.iter().find(|q| q.name == n);
@@ -281,7 +137,8 @@ mod tests {
 
     #[test]
     fn every_quantity_has_ascending_bounds_a_source_and_room_for_scenes_without_units() {
-        for q in QUANTITIES {
+        assert_eq!(QUANTITIES.len(), 20);
+        for q in QUANTITIES.iter() {
             assert!(q.least <= q.low.0 && q.low.0 < q.high.0 && q.high.0.min(q.most) <= q.most);
             assert_eq!(q.low.0 > 0.0, !q.low.1.is_empty(), "{}", q.name);
             let open = q.high.0.is_infinite() || q.high.0 == q.most;

@@ -4,57 +4,32 @@ use std::f64::consts::PI;
 
 /// Exponents of metre, kilogram and second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Dimensions {
-    /// Exponent of the metre.
-    pub metre: i32,
-    /// Exponent of the kilogram.
-    pub kilogram: i32,
-    /// Exponent of the second.
-    pub second: i32,
-}
-
-impl Dimensions {
-    const fn new(metre: i32, kilogram: i32, second: i32) -> Self {
-        Dimensions {
-            metre,
-            kilogram,
-            second,
-        }
-    }
-
-    fn add(self, other: Dimensions, times: i32) -> Self {
-        Dimensions::new(
-            self.metre + times * other.metre,
-            self.kilogram + times * other.kilogram,
-            self.second + times * other.second,
-        )
-    }
-}
+pub struct Dimensions(pub [i32; 3]);
 
 /// Units that may carry a prefix, with their value in SI.
 const BASE: [(&str, f64, Dimensions); 8] = [
-    ("m", 1.0, Dimensions::new(1, 0, 0)),
-    ("g", 1e-3, Dimensions::new(0, 1, 0)),
-    ("s", 1.0, Dimensions::new(0, 0, 1)),
-    ("N", 1.0, Dimensions::new(1, 1, -2)),
-    ("Pa", 1.0, Dimensions::new(-1, 1, -2)),
-    ("J", 1.0, Dimensions::new(2, 1, -2)),
-    ("W", 1.0, Dimensions::new(2, 1, -3)),
-    ("Hz", 1.0, Dimensions::new(0, 0, -1)),
+    ("m", 1.0, Dimensions([1, 0, 0])),
+    ("g", 1e-3, Dimensions([0, 1, 0])),
+    ("s", 1.0, Dimensions([0, 0, 1])),
+    ("N", 1.0, Dimensions([1, 1, -2])),
+    ("Pa", 1.0, Dimensions([-1, 1, -2])),
+    ("J", 1.0, Dimensions([2, 1, -2])),
+    ("W", 1.0, Dimensions([2, 1, -3])),
+    ("Hz", 1.0, Dimensions([0, 0, -1])),
 ];
 
 /// Units that stand alone.
 const PLAIN: [(&str, f64, Dimensions); 10] = [
-    ("1", 1.0, Dimensions::new(0, 0, 0)),
-    ("%", 0.01, Dimensions::new(0, 0, 0)),
-    ("rad", 1.0, Dimensions::new(0, 0, 0)),
-    ("deg", PI / 180.0, Dimensions::new(0, 0, 0)),
-    ("°", PI / 180.0, Dimensions::new(0, 0, 0)),
-    ("bar", 1e5, Dimensions::new(-1, 1, -2)),
-    ("min", 60.0, Dimensions::new(0, 0, 1)),
-    ("h", 3600.0, Dimensions::new(0, 0, 1)),
-    ("t", 1e3, Dimensions::new(0, 1, 0)),
-    ("rpm", PI / 30.0, Dimensions::new(0, 0, -1)),
+    ("1", 1.0, Dimensions([0, 0, 0])),
+    ("%", 0.01, Dimensions([0, 0, 0])),
+    ("rad", 1.0, Dimensions([0, 0, 0])),
+    ("deg", PI / 180.0, Dimensions([0, 0, 0])),
+    ("°", PI / 180.0, Dimensions([0, 0, 0])),
+    ("bar", 1e5, Dimensions([-1, 1, -2])),
+    ("min", 60.0, Dimensions([0, 0, 1])),
+    ("h", 3600.0, Dimensions([0, 0, 1])),
+    ("t", 1e3, Dimensions([0, 1, 0])),
+    ("rpm", PI / 30.0, Dimensions([0, 0, -1])),
 ];
 
 /// Larger exponents than this occur in no unit; they must not overflow the sums.
@@ -87,7 +62,9 @@ pub fn parse_unit(text: &str) -> Result<(f64, Dimensions), String> {
         }
         let (value, dims, power) = one_symbol(symbol)?;
         factor *= value.powi(sign * power);
-        dimensions = dimensions.add(dims, sign * power);
+        for (sum, exponent) in dimensions.0.iter_mut().zip(dims.0) {
+            *sum += sign * power * exponent;
+        }
         symbol.clear();
         Ok(())
     };
@@ -111,12 +88,9 @@ pub fn parse_unit(text: &str) -> Result<(f64, Dimensions), String> {
 /// The defect of the unit.
 pub fn unit_factor(unit: &str, alike: &str) -> Result<f64, String> {
     let (factor, own) = parse_unit(unit)?;
-    let kind = match alike {
-        "m" => "length",
-        "s" => "time",
-        "rad" => "angle",
-        other => other,
-    };
+    let kinds = [("m", "length"), ("s", "time"), ("rad", "angle")];
+    let kind = kinds.iter().find(|(unit, _)| *unit == alike);
+    let kind = kind.map_or(alike, |(_, kind)| kind);
     match parse_unit(alike) {
         Ok((_, wanted)) if wanted == own && !unit.trim().is_empty() => Ok(factor),
         _ => Err(format!("`{unit}` is no unit of {kind}")),

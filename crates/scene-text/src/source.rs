@@ -4,14 +4,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use toml::Table;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table};
 
 use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
-use crate::locate::locate;
+use crate::files::{FILE_BYTES, joined, within};
 use crate::overrides::Override;
-use crate::paths::{PathProblem, joined, within};
-use crate::text::FILE_BYTES;
 use crate::{MOST_PROBLEMS, SceneProblem, is_within};
 
 /// The text of a scene file and the overrides on top of it.
@@ -131,7 +129,7 @@ impl Source {
     ///
     /// # Errors
     /// If the path leads elsewhere.
-    pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, PathProblem> {
+    pub fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, String> {
         let folder = Path::new(&self.file).parent().unwrap_or(Path::new(""));
         let by = self.overrides.iter().rfind(|o| is_within(key, &o.path));
         match by.is_some_and(|o| o.users) {
@@ -139,9 +137,7 @@ impl Source {
             false => within(folder, file, &self.allowed),
         }
     }
-}
 
-impl Source {
     /// The table of the text with the overrides applied.
     ///
     /// # Errors
@@ -199,7 +195,7 @@ fn without_echoes(mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
 const DEEPEST: usize = 80;
 
 /// Place at which a text is nested too deeply: the reader reports it without a place.
-fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
+fn too_deep(text: &str, message: &str) -> Range<usize> {
     if !message.contains("recursion") {
         return 0..0;
     }
@@ -222,6 +218,75 @@ fn too_deep(text: &str, message: &str) -> std::ops::Range<usize> {
     0..0
 }
 
+/// A place in the text, and whether it is that of the whole path or of a parent.
+struct Place {
+    span: Range<usize>,
+    exact: bool,
+}
+
+/// The place of `phase.water.density` or `wall.tank.polyline[0][1]`, or of its nearest parent.
+///
+/// A key with a value gives the span of both; a table gives the span of its name.
+fn locate(table: &DeTable<'_>, path: &str) -> Place {
+    let mut span = 0..0;
+    let mut rest = path;
+    let mut inside = TextNode::Table(table);
+    while !rest.is_empty() {
+        let step = match inside {
+            TextNode::Table(table) => named(table, rest),
+            TextNode::List(items) => indexed(items, rest),
+            TextNode::Leaf => None,
+        };
+        let Some((there, value, remaining)) = step else {
+            let exact = false;
+            return Place { span, exact };
+        };
+        span = there;
+        rest = remaining.strip_prefix('.').unwrap_or(remaining);
+        inside = match value.get_ref() {
+            DeValue::Table(table) => TextNode::Table(table),
+            DeValue::Array(items) => TextNode::List(items),
+            _ => TextNode::Leaf,
+        };
+    }
+    let exact = true;
+    Place { span, exact }
+}
+
+enum TextNode<'t> {
+    Table(&'t DeTable<'t>),
+    List(&'t [Spanned<DeValue<'t>>]),
+    Leaf,
+}
+
+type Step<'t, 'p> = (Range<usize>, &'t Spanned<DeValue<'t>>, &'p str);
+
+/// The longest key that the path starts with: a quoted key may hold a dot.
+fn named<'t, 'p>(table: &'t DeTable<'t>, path: &'p str) -> Option<Step<'t, 'p>> {
+    let fits = |key: &str| {
+        let rest = path.strip_prefix(key)?;
+        (rest.is_empty() || rest.starts_with(['.', '['])).then_some(rest)
+    };
+    let entries = table.iter().filter_map(|(key, value)| {
+        let rest = fits(key.get_ref())?;
+        Some((key, value, rest))
+    });
+    let (key, value, rest) = entries.min_by_key(|(_, _, rest)| rest.len())?;
+    let (name, text) = (key.span(), value.span());
+    let span = match value.get_ref() {
+        DeValue::Table(_) => name,
+        _ if text.end >= name.end => name.start..text.end,
+        _ => name,
+    };
+    Some((span, value, rest))
+}
+
+fn indexed<'t, 'p>(items: &'t [Spanned<DeValue<'t>>], path: &'p str) -> Option<Step<'t, 'p>> {
+    let (index, rest) = path.strip_prefix('[')?.split_once(']')?;
+    let value = items.get(index.parse::<usize>().ok()?)?;
+    Some((value.span(), value, rest))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -236,10 +301,8 @@ mod tests {
         };
         let open = told("a = [[0, 1], [2, 3, [4, 5]]\nb = true\nc = \"x\"\n[d]\ne = 1\n");
         let (line, message) = &open;
-        assert!(
-            *line <= 2 && message.starts_with("an array is not closed"),
-            "{open:?}"
-        );
+        let one = *line <= 2 && message.starts_with("an array is not closed");
+        assert!(one, "{open:?}");
         let comma = told("a = [[1] [2]]\nb = 3\n");
         assert!(comma.1.starts_with("missing comma"), "{comma:?}");
     }

@@ -12,9 +12,8 @@ mod facets;
 mod stl;
 mod topology;
 mod vector;
-mod weld;
 
+pub use facets::{Facets, Welder};
 pub use stl::{StlFile, parse, read};
 pub use topology::{Opening, Topology};
 pub use vector::{cross, dot, minus};
-pub use weld::{Facets, Welder};

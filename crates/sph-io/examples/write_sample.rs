@@ -55,7 +55,7 @@ fn sample(folder: &Path) -> Result<(), Box<dyn Error>> {
             index,
             pieces: vec![fluid(&points, &velocity), walls(), gate(), no_drops()],
         };
-        let files = series.write(&frame)?;
+        let files = series.write(&frame, 1)?;
         for (piece, file) in frame.pieces.iter().zip(&files) {
             let file = file.strip_prefix(folder)?.display().to_string();
             expected.push(expectation(piece, file, time));
@@ -92,7 +92,7 @@ fn fluid<'a>(points: &'a [[f64; 3]], velocity: &'a [[f64; 3]]) -> Piece<'a> {
         points: points.into(),
         cells: Cells::Vertices,
         fields: vec![
-            FieldData::vector("velocity", "m/s", velocity),
+            FieldData::tensor("velocity", "m/s", 3, velocity.as_flattened()),
             FieldData::scalar("pressure", "Pa", pressure),
             FieldData::integer("id", id),
             FieldData {

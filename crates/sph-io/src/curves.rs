@@ -17,19 +17,14 @@ use crate::IoError;
 
 mod cloud;
 mod frames;
-mod profile;
-mod snapshot;
 mod streamline;
 mod track;
 
 pub use cloud::{Cloud, Weights};
-pub use frames::{Entry, Frames};
-pub use profile::{Line, draw_profile};
-pub use snapshot::{Column, Snapshot};
+pub use frames::{Column, Entry, Frames, Snapshot};
 pub use streamline::{draw_streamlines, streamlines};
-pub use track::{Track, draw_tracks, evenly, nearest, tracks};
+pub use track::{Line, Track, draw_profile, draw_tracks, evenly, nearest, tracks};
 
-/// Result of drawings.
 type Result<T> = std::result::Result<T, DrawError>;
 
 /// Errors of drawings.
@@ -53,10 +48,6 @@ fn write_beside<'c>(
     columns: impl IntoIterator<Item = (&'c str, &'c str)>,
     rows: impl Iterator<Item = Vec<f64>>,
 ) -> Result<()> {
-    let rows: Vec<Vec<f64>> = rows.collect();
-    Ok(crate::write_table(
-        picture.with_extension("csv"),
-        columns,
-        &rows,
-    )?)
+    let (table, rows) = (picture.with_extension("csv"), rows.collect::<Vec<_>>());
+    Ok(crate::write_table(table, columns, &rows)?)
 }

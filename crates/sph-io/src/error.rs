@@ -72,7 +72,6 @@ impl IoError {
         }
     }
 
-    /// A failed read of `path`.
     pub(crate) fn read(path: &Path, source: io::Error) -> Self {
         Self::Read(path.into(), source)
     }
@@ -86,8 +85,6 @@ impl IoError {
 /// True if `error` means that the disk, the quota or the limit of `ulimit -f` is exhausted.
 pub(crate) fn is_full(error: &io::Error) -> bool {
     use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull, WriteZero};
-    matches!(
-        error.kind(),
-        StorageFull | QuotaExceeded | WriteZero | FileTooLarge
-    )
+    let full = [StorageFull, QuotaExceeded, WriteZero, FileTooLarge];
+    full.contains(&error.kind())
 }

@@ -1,8 +1,7 @@
 //! Files and folders: written whole or not at all, held by one program, tables and series.
 
-pub mod atomic;
 pub mod clean;
-pub mod folder;
+pub mod disk;
 pub mod lock;
 pub mod scratch;
 pub mod series;

@@ -25,16 +25,16 @@ mod paraview;
 
 pub use checkpoint::{Checkpoint, CheckpointFault, Column, ColumnData};
 pub use drawing::animation::{write_film, write_gif};
-pub use drawing::colour::{Colour, ColourMap};
-pub use drawing::colour_ranges::{ColourRanges, quantiles};
+pub use drawing::axes::View;
+pub use drawing::colour::{Colour, ColourMap, ColourRanges, quantiles};
 pub use drawing::mark::{Series, Style};
 pub use drawing::picture::Picture;
 pub use drawing::plot::{Panels, Plot};
-pub use drawing::view::View;
 pub use error::{IoError, Result};
-pub use files::atomic::{sweep_temporaries, write_json, write_whole};
-pub use files::clean::{clean, escaped};
-pub use files::folder::{Checksum, checksum, readable, writable};
+pub use files::clean::{clean, escape, escaped};
+pub use files::disk::{
+    Checksum, checksum, readable, sweep_temporaries, writable, write_json, write_whole,
+};
 pub use files::lock::{FolderLock, Holder};
 pub use files::scratch::Scratch;
 pub use files::series::{SeriesWriter, write_table};
@@ -44,4 +44,3 @@ pub use paraview::pvd::{PvdSeries, SeriesEntry, list_pvd};
 pub use paraview::pvtu::{read_piece, write_share};
 pub use paraview::vtu::write_vtu;
 pub use paraview::vtu_read::read_vtu;
-pub use paraview::xml::escape;

@@ -5,4 +5,3 @@ pub mod pvd;
 pub mod pvtu;
 pub mod vtu;
 pub mod vtu_read;
-pub mod xml;

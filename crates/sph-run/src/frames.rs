@@ -102,7 +102,7 @@ impl Frames {
             index: self.written,
             pieces,
         };
-        list.write_among(&frame, ranks).map(|_| ())
+        list.write(&frame, ranks).map(|_| ())
     }
 
     /// True if there are files for ParaView.

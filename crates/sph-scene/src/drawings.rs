@@ -1,8 +1,5 @@
 //! Lines and triangles from files.
 
-pub(crate) mod drawing;
 pub(crate) mod format;
-pub(crate) mod heading;
 pub(crate) mod rows;
 pub(crate) mod svg;
-pub(crate) mod svg_path;

@@ -1,17 +1,11 @@
 //! Shapes in the plane and in space, and how they move.
 
 pub(crate) mod course;
-pub(crate) mod divide;
-pub(crate) mod ellipse;
-pub(crate) mod level;
 pub(crate) mod outlines;
 pub(crate) mod periodic_place;
 pub(crate) mod polygon;
 pub(crate) mod region;
 pub(crate) mod shapes;
-pub(crate) mod sided;
 pub(crate) mod solid;
-pub(crate) mod transform;
-pub(crate) mod triangulate;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;

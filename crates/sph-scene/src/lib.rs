@@ -52,27 +52,26 @@ mod geometry;
 mod reading;
 mod tables;
 
-pub use drawings::drawing::DrawingError;
-pub use filling::disorder::{disturb, noise};
-pub use filling::fill::{BodyParticles, Offset, estimate, fill};
+pub use filling::{BodyParticles, Offset, disturb, estimate, fill, noise};
 pub use geometry::course::Courses;
-pub use geometry::level::LevelSurface;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
-pub use geometry::sided::sense;
+pub use geometry::wall_geometry::sense;
 pub use reading::load::{DataFile, LoadError, Loaded, Refused, load, parse, read};
 pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
-    Diagnostic, Origin, Override, PathProblem, PictureRange, Source, given, read_text, within,
+    Diagnostic, Origin, Override, PictureRange, Source, given, read_text, within,
 };
-pub use tables::body::{Body, BodyShape, Filling, Phase, Pressure};
-pub use tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
+pub use tables::body::{
+    Body, BodyShape, Cone, Cylinder, Ellipse, Extrusion, Filling, Phase, Pressure, Round,
+};
 pub use tables::motion::{
-    AngularRamp, AngularSine, CourseRows, Levels, Motion, Ramp, Rotation, Sine, Translate,
+    AngularRamp, AngularSine, CourseRows, Levels, Motion, Oscillation, Ramp, Rotation, Sine,
+    Translate,
 };
 pub use tables::numerics::{
     GravityOverTime, GravitySine, Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run,
@@ -81,8 +80,8 @@ pub use tables::outlet::{Outlet, Zone};
 pub use tables::output::Output;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
-pub use tables::wall::{Erodible, FluidSide, FrictionForm, SlipCondition, Wall};
-pub use tables::wall_shapes::{
-    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, Rotate, SphereWall, Wedge,
+pub use tables::wall::{
+    ConeWall, CylinderWall, DiscWall, Erodible, ExtrusionWall, Face, FluidSide, FrictionForm,
+    Rotate, SlipCondition, SphereWall, Wall, Wedge,
 };
-pub use tables::wave::{Heading, Wave, WaveKind};
+pub use tables::wave::{Heading, LevelSurface, Wave, WaveKind};

@@ -1,7 +1,6 @@
 //! The tables of a scene, as plain data.
 
 pub(crate) mod body;
-pub(crate) mod body_shapes;
 pub(crate) mod motion;
 pub(crate) mod numerics;
 pub(crate) mod outlet;
@@ -9,5 +8,4 @@ pub(crate) mod output;
 pub(crate) mod reference;
 pub(crate) mod scene;
 pub(crate) mod wall;
-pub(crate) mod wall_shapes;
 pub(crate) mod wave;

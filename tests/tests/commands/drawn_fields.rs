@@ -115,7 +115,7 @@ fn frames(folder: &Path) -> Frames {
             index,
             pieces: vec![piece],
         };
-        series.write(&frame).expect("a frame");
+        series.write(&frame, 1).expect("a frame");
     }
     Frames::from_folder(folder).expect("frames")
 }

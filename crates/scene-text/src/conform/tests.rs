@@ -1,7 +1,6 @@
 //! Tests of tables against schemas.
 
 use super::*;
-use serde_json::json;
 
 fn schema() -> Json {
     json!({
@@ -91,12 +90,10 @@ fn a_key_distinguishes_the_kinds_of_a_table() {
     assert_eq!(right["probe"]["p"]["x"].as_float(), Some(0.02));
     let levl =
         ".kind: there is no probe of the kind `levl`, did you mean `level`? (there are: at, level)";
+    let missing = ": the key `kind` is missing: one of at, level";
     for (wrong, message) in [
         ("{ kind = 'levl', from = 1 }", levl),
-        (
-            "{ from = 1 }",
-            ": the key `kind` is missing: one of at, level",
-        ),
+        ("{ from = 1 }", missing),
         ("{ kind = 'level', x = 1 }", ".x: `x` is not a known key"),
         ("{ kind = 'at' }", ": the key `x` is missing"),
         ("3", ": expected a table, found 3"),

@@ -53,9 +53,8 @@ pub fn parse(bytes: Vec<u8>, name: &str) -> Result<StlFile, String> {
         }
         let corners = triangle.vertices.map(|v| v.0.map(f64::from));
         if let Some(x) = corners.iter().flatten().find(|x| !x.is_finite()) {
-            return Err(format!(
-                "`{name}`, facet {number}: expected finite coordinates, found {x}"
-            ));
+            let why = format!("expected finite coordinates, found {x}");
+            return Err(format!("`{name}`, facet {number}: {why}"));
         }
         if odd.is_none() && contradicts(&triangle, &corners) {
             odd = Some(number);
@@ -84,10 +83,8 @@ fn contradicts(triangle: &Triangle, corners: &[[f64; 3]; 3]) -> bool {
 fn prepared(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
     let start = bytes.trim_ascii_start().get(..5);
     let solid = start.is_some_and(|start| start.eq_ignore_ascii_case(b"solid"));
-    let declared = bytes
-        .get(80..HEADER)
-        .and_then(|count| count.try_into().ok());
-    let declared = declared.map(|count| u32::from_le_bytes(count) as usize);
+    let declared = bytes.get(80..).and_then(|rest| rest.first_chunk());
+    let declared = declared.map(|count| u32::from_le_bytes(*count) as usize);
     let needed = |count: usize| HEADER + RECORD * count;
     if solid && declared.is_none_or(|count| needed(count) != bytes.len()) {
         return joined(&bytes);
@@ -99,15 +96,14 @@ fn prepared(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
         ));
     };
     let room = (bytes.len() - HEADER) / RECORD;
+    let declares = format!("declares {count} facets");
     if count > TRIANGLES {
         return Err(format!(
-            "declares {count} facets, more than {TRIANGLES}; it has room for {room}"
+            "{declares}, more than {TRIANGLES}; it has room for {room}"
         ));
     }
     if count > room {
-        return Err(format!(
-            "declares {count} facets and ends after {room}: it is cut short"
-        ));
+        return Err(format!("{declares} and ends after {room}: it is cut short"));
     }
     bytes[..80].fill(0);
     Ok(bytes)

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::surface::facets::bounds;
+use crate::surface::facets::{Facets, bounds};
 use crate::surface::vector::{dot, minus};
-use crate::surface::weld::Facets;
 
 /// Edges that hang together and have a facet on one side only.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,14 +45,11 @@ impl Facets {
     /// Topology of the facets.
     pub fn topology(&self) -> Topology {
         let mut halves = Vec::with_capacity(3 * self.triangles.len());
-        for (facet, t) in self.triangles.iter().enumerate() {
-            halves.extend((0..3).map(|k| {
-                let (a, b) = (t[k], t[(k + 1) % 3]);
-                DirectedEdge {
-                    ends: [a.min(b), a.max(b)],
-                    facet: facet as u32,
-                    forward: a < b,
-                }
+        for (facet, [a, b, c]) in (0..).zip(&self.triangles) {
+            halves.extend([(a, b), (b, c), (c, a)].map(|(a, b)| DirectedEdge {
+                ends: [*a.min(b), *a.max(b)],
+                facet,
+                forward: a < b,
             }));
         }
         halves.sort_unstable_by_key(|h| (h.ends, h.facet));
@@ -150,10 +146,11 @@ impl Facets {
             let centre = std::array::from_fn(|k| ends.iter().map(|p| p[k]).sum::<f64>() / count);
             let [low, high] = bounds(&ends);
             let across = minus(&high, &low);
+            let (edges, size) = (edges.len(), dot(&across, &across).sqrt());
             openings.push(Opening {
-                edges: edges.len(),
+                edges,
                 centre,
-                size: dot(&across, &across).sqrt(),
+                size,
             });
         }
         openings.sort_by(|a, b| b.size.total_cmp(&a.size));

@@ -12,11 +12,10 @@ use super::{
     MAGIC, PREFIX, SUFFIX, Shape, VERSION,
 };
 use crate::error::{IoError, Result};
-use crate::files::folder::readable;
+use crate::files::disk::readable;
 
 impl Checkpoint {
-    /// Reads the checkpoint at `path`; any damage is an error that names the
-    /// check failed.
+    /// Reads the checkpoint at `path`; any damage is an error that names the check failed.
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let failed = |e| IoError::read(path, e);
@@ -24,8 +23,7 @@ impl Checkpoint {
         readable(path, u64::MAX)?;
         let file = File::open(path).map_err(failed)?;
         let length = file.metadata().map_err(failed)?.len();
-        let input = BufReader::with_capacity(CHUNK, file);
-        let input = CrcReader::new(input);
+        let input = CrcReader::new(BufReader::with_capacity(CHUNK, file));
         let read = Source { input, length }.checkpoint();
         read.map_err(|trouble| match trouble {
             ReadFault::Read(source) => IoError::read(path, source),
@@ -60,26 +58,20 @@ enum ReadFault {
 /// The file, and the checksum of the part that has been read.
 struct Source<R> {
     input: CrcReader<R>,
-    /// Length of the file in bytes.
     length: u64,
 }
 
 impl<R: Read> Source<R> {
     fn checkpoint(mut self) -> std::result::Result<Checkpoint, ReadFault> {
-        let header = self.header()?;
-        let mut columns = Vec::with_capacity(header.columns.len());
-        for shape in header.columns {
-            columns.push(self.column(shape)?);
-        }
+        let Header { meta, columns } = self.header()?;
+        let columns = columns.into_iter().map(|shape| self.column(shape));
+        let columns = columns.collect::<std::result::Result<_, ReadFault>>()?;
         let found = self.input.crc().sum();
         let expected = u32::from_le_bytes(self.take()?);
         if found != expected {
             return Err(Fault::Checksum(expected, found).into());
         }
-        Ok(Checkpoint {
-            meta: header.meta,
-            columns,
-        })
+        Ok(Checkpoint { meta, columns })
     }
 
     /// Everything before the columns; on return their sizes are known to fit.
@@ -103,13 +95,12 @@ impl<R: Read> Source<R> {
         }
         let size = u64::from_le_bytes(self.take()?);
         let room = found - least;
+        let refused = |said: String| Err(Fault::Sizes(said).into());
         if size > room {
-            let said = format!("a header of {size} bytes where {room} are left");
-            return Err(Fault::Sizes(said).into());
+            return refused(format!("a header of {size} bytes where {room} are left"));
         }
         if size > HEADER {
-            let said = format!("a header of {size} bytes, more than {HEADER}");
-            return Err(Fault::Sizes(said).into());
+            return refused(format!("a header of {size} bytes, more than {HEADER}"));
         }
         let text = self.bytes(size)?;
         let actual = crc32fast::hash(&text);
@@ -171,27 +162,26 @@ impl<R: Read> Source<R> {
 /// True if the columns take up exactly `room` bytes and are well formed.
 fn fits(columns: &[Shape], room: u64) -> std::result::Result<(), Fault> {
     let count = columns.len();
+    let refused = |said: String| Err(Fault::Sizes(said));
     if count > COLUMNS {
-        let said = format!("{count} columns, more than {COLUMNS}");
-        return Err(Fault::Sizes(said));
+        return refused(format!("{count} columns, more than {COLUMNS}"));
     }
     let mut total: u64 = 0;
     for (i, shape) in columns.iter().enumerate() {
         let name = &shape.name;
         if shape.components == 0 {
-            return Err(Fault::Sizes(format!("column `{name}` has no components")));
+            return refused(format!("column `{name}` has no components"));
         }
         if columns[..i].iter().any(|s| s.name == *name) {
             return Err(Fault::Header(format!("two columns are named `{name}`")));
         }
-        let sum = shape.bytes().and_then(|b| b.checked_add(total));
-        total = sum
-            .filter(|&sum| sum <= room)
-            .ok_or_else(|| Fault::Sizes(format!("column `{name}` reaches beyond the end")))?;
+        match shape.bytes().and_then(|bytes| bytes.checked_add(total)) {
+            Some(sum) if sum <= room => total = sum,
+            _ => return refused(format!("column `{name}` reaches beyond the end")),
+        }
     }
-    if total < room {
-        let said = format!("the columns take {total} of {room} bytes");
-        return Err(Fault::Sizes(said));
+    match total < room {
+        true => refused(format!("the columns take {total} of {room} bytes")),
+        false => Ok(()),
     }
-    Ok(())
 }

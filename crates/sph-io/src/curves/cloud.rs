@@ -48,9 +48,8 @@ impl<'a> Cloud<'a> {
     pub fn new(points: &'a [[f64; 3]], spacing: f64) -> Self {
         let first = points.first().map_or(0.0, |p| p[2]);
         let planar = points.iter().all(|p| p[2] == first);
-        let finite = (0..)
-            .zip(points)
-            .filter(|(_, p)| p.iter().all(|x| x.is_finite()));
+        let finite = |(_, p): &(u32, &[f64; 3])| p.iter().all(|x| x.is_finite());
+        let finite = (0..).zip(points).filter(finite);
         let cells = finite.map(|(k, point)| (zyx(*point), k));
         Cloud {
             points,
@@ -67,9 +66,8 @@ impl<'a> Cloud<'a> {
             let r = self.points[j as usize];
             (j, [0, 1, 2].map(|k| r[k] - x[k]))
         };
-        let here = self.cells.around(zyx(x));
-        here.map(apart)
-            .filter(move |(_, d)| square(d) < reach * reach)
+        let here = self.cells.around(zyx(x)).map(apart);
+        here.filter(move |(_, d)| square(d) < reach * reach)
     }
 
     /// The share of every particle around in the value at a place (m); nothing outside of the fluid.
@@ -95,10 +93,9 @@ impl<'a> Cloud<'a> {
             matrix[(3, 3)] = total;
         }
         let spectrum = matrix.symmetric_eigenvalues();
-        let slope = match spectrum.min() > LEAST * spectrum.max() {
-            true => matrix.cholesky().map(|m| m.solve(&Vector4::x())),
-            false => None,
-        };
+        let believed = spectrum.min() > LEAST * spectrum.max();
+        let slope = believed.then(|| matrix.cholesky()).flatten();
+        let slope = slope.map(|m| m.solve(&Vector4::x()));
         let factor = slope.unwrap_or_else(|| Vector4::x() / total);
         let share = |(j, weight, basis): (u32, f64, Vector4<f64>)| (j, weight * factor.dot(&basis));
         let shares: Weights = near.into_iter().map(share).collect();
@@ -112,7 +109,6 @@ fn zyx([x, y, z]: [f64; 3]) -> [f64; 3] {
     [z, y, x]
 }
 
-/// The squared length.
 pub(crate) fn square(d: &[f64; 3]) -> f64 {
     d.iter().map(|x| x * x).sum()
 }

@@ -13,7 +13,6 @@ const STEP: f64 = 0.25;
 const CROWDED: f64 = 0.5;
 /// A velocity below that share of the largest one has no direction.
 const STILL: f64 = 1e-6;
-/// Most points of a line.
 const LONGEST: usize = 20_000;
 
 /// Streamlines of a velocity with three components per particle, some `apart` (m) from each other.
@@ -58,7 +57,6 @@ pub fn streamlines(
     lines
 }
 
-/// A field of directions.
 struct Flow<'a> {
     cloud: &'a Cloud<'a>,
     velocity: &'a [f64],
@@ -145,7 +143,6 @@ impl Flow<'_> {
     }
 }
 
-/// Points of lines, sorted into cells.
 type PointCells = PlaceCells<3, [f64; 3]>;
 
 /// True if a point is nearer than `reach`, which is at most a side of a cell.
@@ -190,8 +187,9 @@ pub fn draw_streamlines(
         }
     }
     if points.is_empty() {
-        let said = format!("there are no particles at y = {level} m");
-        return Err(DrawError::Unfit(said));
+        return Err(DrawError::Unfit(format!(
+            "there are no particles at y = {level} m"
+        )));
     }
     let slice = Cloud::new(&points, snapshot.spacing);
     let lines = streamlines(&slice, &moving, flat, apart);
@@ -216,21 +214,15 @@ pub fn draw_streamlines(
 fn arrow(line: &[[f64; 3]], flat: usize, size: f64) -> Option<Vec<[f64; 3]>> {
     let middle = line.len() / 2;
     let (tip, before) = (line.get(middle)?, line.get(middle.checked_sub(2)?)?);
-    let (i, j) = match flat {
-        2 => (0, 1),
-        _ => (0, 2),
-    };
-    let (dx, dy) = (tip[i] - before[i], tip[j] - before[j]);
+    let up = if flat == 2 { 1 } else { 2 };
+    let (dx, dy) = (tip[0] - before[0], tip[up] - before[up]);
     let length = dx.hypot(dy);
-    if length == 0.0 {
-        return None;
-    }
     let (dx, dy) = (size * dx / length, size * dy / length);
     let barb = |side: f64| {
         let mut end = *tip;
-        end[i] -= dx - 0.5 * side * dy;
-        end[j] -= dy + 0.5 * side * dx;
+        end[0] -= dx - 0.5 * side * dy;
+        end[up] -= dy + 0.5 * side * dx;
         end
     };
-    Some(vec![barb(1.0), *tip, barb(-1.0)])
+    (length != 0.0).then(|| vec![barb(1.0), *tip, barb(-1.0)])
 }

@@ -7,8 +7,7 @@ use gif::{Encoder, Frame, Repeat};
 use tiny_skia::Pixmap;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
-use crate::files::folder::writable;
+use crate::files::disk::{Durability, writable, write_atomic};
 
 /// Every tenth pixel counts for the 256 colours of a frame.
 const SPEED: i32 = 10;
@@ -74,10 +73,8 @@ pub fn write_gif(
             let map = read(picture).map_err(std::io::Error::other)?;
             let mut pixels = on_white(&map, usize::from(width), usize::from(height));
             let mut frame = Frame::from_rgba_speed(width, height, &mut pixels, SPEED);
-            frame.delay = match k + 1 == pictures.len() {
-                true => delay.max(LAST),
-                false => delay,
-            };
+            let last = k + 1 == pictures.len();
+            frame.delay = if last { delay.max(LAST) } else { delay };
             encoder.write_frame(&frame).map_err(wrong)?;
         }
         Ok(())
@@ -98,12 +95,10 @@ fn on_white(map: &Pixmap, width: usize, height: usize) -> Vec<u8> {
 
 fn read(path: &Path) -> Result<Pixmap> {
     let bytes = std::fs::read(path).map_err(|e| IoError::read(path, e))?;
-    let map = Pixmap::decode_png(&bytes)
-        .map_err(|e| IoError::Unfit(path.into(), format!("it is no picture: {e}")))?;
-    match map.width() > WIDEST && map.height() > 1 {
-        true => Ok(halved(&map).unwrap_or(map)),
-        false => Ok(map),
-    }
+    let unfit = |e| IoError::Unfit(path.into(), format!("it is no picture: {e}"));
+    let map = Pixmap::decode_png(&bytes).map_err(unfit)?;
+    let wide = map.width() > WIDEST && map.height() > 1;
+    Ok(wide.then(|| halved(&map)).flatten().unwrap_or(map))
 }
 
 /// A picture of half the width and height: every pixel is the mean of four.

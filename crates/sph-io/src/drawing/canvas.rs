@@ -7,15 +7,14 @@ use tiny_skia::{
 };
 
 use crate::drawing::colour::Colour;
-use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
+use crate::drawing::draw_target::{DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::text;
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
+use crate::files::disk::write_whole;
 
 /// Sides in pixels that a picture may have.
 pub(crate) const SIDES: std::ops::RangeInclusive<u32> = 200..=8192;
 
-/// An opaque image, white at first.
 pub(crate) struct Canvas {
     map: Pixmap,
 }
@@ -29,7 +28,6 @@ impl Canvas {
         Some(Self { map })
     }
 
-    /// Writes the image to `path`, all or nothing.
     pub(crate) fn save(&self, path: &Path) -> Result<()> {
         let png = self.map.encode_png();
         let png = png.map_err(|e| IoError::write(path, std::io::Error::other(e)))?;
@@ -54,10 +52,8 @@ impl Canvas {
             for i in columns.clone() {
                 let dx = i as f64 + 0.5 - x;
                 let square = dx * dx + dy * dy;
-                let cover = match square <= solid {
-                    true => 1.0,
-                    false => reach - square.sqrt(),
-                };
+                let whole = square <= solid;
+                let cover = if whole { 1.0 } else { reach - square.sqrt() };
                 if cover > 0.0 {
                     self.blend([i, j], fill.colour, cover.min(1.0) * opacity);
                 }
@@ -94,7 +90,6 @@ impl Canvas {
         }
     }
 
-    /// The whole image.
     pub(crate) fn bounds(&self) -> Rect {
         Rect::sized([self.map.width(), self.map.height()])
     }
@@ -133,11 +128,7 @@ impl DrawTarget for Canvas {
     }
 
     fn text(&mut self, at: Spot, text: &str, lettering: Lettering) {
-        let share = match lettering.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5,
-            Anchor::End => 1.0,
-        };
+        let share = 0.5 * f64::from(lettering.anchor as u8);
         let back = share * text::width(text, lettering.size);
         let [x, y] = match lettering.upwards {
             true => [at[0], at[1] + back],

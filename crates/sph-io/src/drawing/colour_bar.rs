@@ -12,6 +12,8 @@ pub(crate) struct ColourBar<'a> {
     pub(crate) range: [f64; 2],
     pub(crate) colours: ColourMap,
     pub(crate) label: &'a str,
+    /// Names in place of the scale, if there are any.
+    pub(crate) classes: &'a [String],
     /// True for values below, and above, the range: pointed ends.
     pub(crate) beyond: [bool; 2],
     pub(crate) size: f64,
@@ -20,30 +22,30 @@ pub(crate) struct ColourBar<'a> {
 impl ColourBar<'_> {
     /// Pixels that the bar takes to the right of the frame.
     pub(crate) fn room(&self) -> f64 {
-        // With the most ticks it can have; fewer are never wider.
         let size = self.size;
+        if !self.classes.is_empty() {
+            let names = self.classes.iter().map(String::as_str);
+            return text::widest(names, size) + 3.2 * size;
+        }
+        // With the most ticks it can have; fewer are never wider.
         let label = if self.label.is_empty() { 0.6 } else { 2.2 };
         2.6 * size + self.labels_width(&self.ticks(f64::INFINITY)) + label * size
     }
 
-    /// Draws the bar beside `frame`, as high as that.
     pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
-        let bar = Rect {
-            left: crisp(frame.right + size) - 0.5,
-            right: crisp(frame.right + 2.1 * size) - 0.5,
-            top: crisp(frame.top) + if self.beyond[1] { 0.9 * size } else { 0.0 },
-            bottom: crisp(frame.bottom) - if self.beyond[0] { 0.9 * size } else { 0.0 },
-        };
+        if !self.classes.is_empty() {
+            return self.draw_classes(on, frame);
+        }
+        let [below, above] = self.beyond.map(|tip| if tip { 0.9 * size } else { 0.0 });
+        let [left, right] = [1.0, 2.1].map(|at| crisp(frame.right + at * size) - 0.5);
+        let (top, bottom) = (crisp(frame.top) + above, crisp(frame.bottom) - below);
+        let bar = Rect::between([left, top], [right, bottom]);
         let rows = bar.height().round() as usize;
         for row in 0..rows {
             let top = bar.top + row as f64;
             let at = 1.0 - (row as f64 + 0.5) / rows as f64;
-            let strip = Rect {
-                top,
-                bottom: top + 1.0,
-                ..bar
-            };
+            let strip = Rect::between([bar.left, top], [bar.right, top + 1.0]);
             on.block(strip, self.colours.at(at));
         }
         self.draw_outline(on, &bar);
@@ -60,10 +62,7 @@ impl ColourBar<'_> {
         if let Some(factor) = &ticks.factor {
             on.text([bar.left, frame.top - 0.5 * size], factor, start);
         }
-        let upwards = Lettering {
-            upwards: true,
-            ..Lettering::new(size, Anchor::Middle)
-        };
+        let upwards = Lettering::new(size, Anchor::Middle).upwards();
         let right = bar.right + self.labels_width(&ticks) + 1.75 * size;
         let middle = (frame.top + frame.bottom) / 2.0;
         on.text([right, middle], self.label, upwards);
@@ -75,12 +74,8 @@ impl ColourBar<'_> {
         let middle = (bar.left + bar.right) / 2.0;
         let [a, b, c, d] = bar.corners();
         // One pixel into the bar, so that no seam shows.
-        let [a1, b1, c1, d1] = Rect {
-            top: bar.top + 1.0,
-            bottom: bar.bottom - 1.0,
-            ..*bar
-        }
-        .corners();
+        let upper = [bar.left, bar.top + 1.0];
+        let [a1, b1, c1, d1] = Rect::between(upper, [bar.right, bar.bottom - 1.0]).corners();
         let below = [middle, bar.bottom + tip];
         let above = [middle, bar.top - tip];
         let mut outline = vec![a];
@@ -107,40 +102,18 @@ impl ColourBar<'_> {
         let labels = ticks.major.iter().map(|(_, label)| label.as_str());
         text::widest(labels, self.size)
     }
-}
 
-/// A list of names, one below the other, to the right of the frame.
-pub(crate) struct ClassBar<'a> {
-    pub(crate) names: &'a [String],
-    pub(crate) size: f64,
-}
-
-impl ClassBar<'_> {
-    /// Pixels that the list takes to the right of the frame.
-    pub(crate) fn room(&self) -> f64 {
-        let names = self.names.iter().map(String::as_str);
-        text::widest(names, self.size) + 3.2 * self.size
-    }
-
-    pub(crate) fn draw(&self, on: &mut Canvas, frame: &Rect) {
+    /// The names, one below the other.
+    fn draw_classes(&self, on: &mut Canvas, frame: &Rect) {
         let size = self.size;
-        for (k, name) in self.names.iter().enumerate() {
+        for (k, name) in self.classes.iter().enumerate() {
             let top = frame.top + 1.6 * k as f64 * size;
-            let block = Rect {
-                left: frame.right + 0.8 * size,
-                right: frame.right + 1.8 * size,
-                top,
-                bottom: top + size,
-            };
+            let right = [frame.right + 1.8 * size, top + size];
+            let block = Rect::between([frame.right + 0.8 * size, top], right);
             on.block(block, SERIES[k % SERIES.len()]);
-            let [a, b, c, d] = block.corners();
-            on.line(&[a, b, c, d, a], Pen::solid(Colour::INK, size / 16.0));
-            let start = Lettering::new(size, Anchor::Start);
-            on.text(
-                [block.right + 0.4 * size, block.bottom - 0.14 * size],
-                name,
-                start,
-            );
+            on.line(&block.outline(), Pen::solid(Colour::INK, size / 16.0));
+            let at = [block.right + 0.4 * size, block.bottom - 0.14 * size];
+            on.text(at, name, Lettering::new(size, Anchor::Start));
         }
     }
 }

@@ -7,7 +7,6 @@ use crate::drawing::colour::Colour;
 /// A point on the surface.
 pub(crate) type Spot = [f64; 2];
 
-/// Style of a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pen {
     pub(crate) colour: Colour,
@@ -16,7 +15,6 @@ pub(crate) struct Pen {
     pub(crate) dashed: bool,
 }
 
-/// Fill of an area.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fill {
     pub(crate) colour: Colour,
@@ -32,7 +30,6 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// Style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lettering {
     /// Font size in pixels.
@@ -44,11 +41,8 @@ pub(crate) struct Lettering {
 
 /// Pixels or a vector file.
 pub(crate) trait DrawTarget {
-    /// A line through `points`.
     fn line(&mut self, points: &[Spot], pen: Pen);
-    /// A filled polygon.
     fn area(&mut self, outline: &[Spot], fill: Fill);
-    /// A filled circle.
     fn disc(&mut self, centre: Spot, radius: f64, fill: Fill);
     /// A text with its baseline through `at`.
     fn text(&mut self, at: Spot, text: &str, lettering: Lettering);
@@ -56,20 +50,22 @@ pub(crate) trait DrawTarget {
 
 impl Pen {
     pub(crate) fn solid(colour: Colour, width: f64) -> Self {
+        let dashed = false;
         Self {
             colour,
             width,
-            dashed: false,
+            dashed,
         }
     }
 }
 
 impl Fill {
     pub(crate) fn solid(colour: Colour) -> Self {
-        Self {
-            colour,
-            opacity: 1.0,
-        }
+        Self::new(colour, 1.0)
+    }
+
+    pub(crate) fn new(colour: Colour, opacity: f64) -> Self {
+        Self { colour, opacity }
     }
 }
 
@@ -80,6 +76,11 @@ impl Lettering {
             anchor,
             upwards: false,
         }
+    }
+
+    pub(crate) fn upwards(self) -> Self {
+        let upwards = true;
+        Self { upwards, ..self }
     }
 }
 
@@ -93,14 +94,19 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// One from the corner on.
-    pub(crate) fn sized([width, height]: [u32; 2]) -> Self {
+    /// One from its upper left to its lower right corner.
+    pub(crate) fn between([left, top]: Spot, [right, bottom]: Spot) -> Self {
         Self {
-            left: 0.0,
-            top: 0.0,
-            right: f64::from(width),
-            bottom: f64::from(height),
+            left,
+            top,
+            right,
+            bottom,
         }
+    }
+
+    /// One from the corner on.
+    pub(crate) fn sized(sides: [u32; 2]) -> Self {
+        Self::between([0.0; 2], sides.map(f64::from))
     }
 
     pub(crate) fn width(&self) -> f64 {
@@ -112,13 +118,14 @@ impl Rect {
     }
 
     pub(crate) fn corners(&self) -> [Spot; 4] {
-        let Self {
-            left,
-            top,
-            right,
-            bottom,
-        } = *self;
+        let ([left, right], [top, bottom]) = ([self.left, self.right], [self.top, self.bottom]);
         [[left, top], [right, top], [right, bottom], [left, bottom]]
+    }
+
+    /// The corners, the first of them again at the end.
+    pub(crate) fn outline(&self) -> [Spot; 5] {
+        let [a, b, c, d] = self.corners();
+        [a, b, c, d, a]
     }
 
     pub(crate) fn holds(&self, [x, y]: Spot) -> bool {

@@ -58,10 +58,7 @@ fn most(points: &[Spot]) -> Option<Corners<2>> {
         let all = points.iter().map(|p| p[axis]).filter(|x| x.abs() < SANE);
         let mut all: Vec<f64> = all.collect();
         all.sort_unstable_by(f64::total_cmp);
-        match all.len() > 2 * few {
-            true => Some([all[few], all[all.len() - 1 - few]]),
-            false => None,
-        }
+        (all.len() > 2 * few).then(|| [all[few], all[all.len() - 1 - few]])
     };
     let (x, y) = (range(0)?, range(1)?);
     Some([[x[0], y[0]], [x[1], y[1]]])

@@ -1,8 +1,9 @@
-//! A series of a plot: its points, and the marks and lines by which they are drawn.
+//! A series of a plot: its points, the marks and lines by which they are drawn, and the legend.
 
 use crate::drawing::axes::{Axes, shown};
 use crate::drawing::colour::{Colour, SERIES};
-use crate::drawing::draw_target::{DrawTarget, Fill, Pen, Spot};
+use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
+use crate::drawing::text;
 
 /// One set of points of a [`Plot`](crate::Plot).
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +78,6 @@ impl Series {
 /// Points beyond which lines are thinned to the visible ones.
 const MANY: usize = 4000;
 
-/// A series with its colour and shape.
 pub(crate) struct Mark<'a> {
     pub(crate) series: &'a Series,
     /// Its place in the list of all series.
@@ -93,7 +93,6 @@ impl Mark<'_> {
         }
     }
 
-    /// True if it is drawn below the others.
     pub(crate) fn is_behind(&self) -> bool {
         let style = &self.series.style;
         matches!(style, Style::Band(_) | Style::Background | Style::Highlight)
@@ -183,10 +182,8 @@ impl Mark<'_> {
             2 => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
             _ => &[[0.0, -1.3], [1.15, 0.75], [-1.15, 0.75]],
         };
-        let outline = corners
-            .iter()
-            .map(|[right, down]| [x + right * r, y + down * r]);
-        on.area(&outline.collect::<Vec<Spot>>(), fill);
+        let place = |[right, down]: &Spot| [x + right * r, y + down * r];
+        on.area(&corners.iter().map(place).collect::<Vec<Spot>>(), fill);
     }
 
     fn pen(&self, size: f64) -> Pen {
@@ -207,10 +204,7 @@ impl Mark<'_> {
     }
 
     fn band_fill(&self) -> Fill {
-        Fill {
-            colour: self.colour(),
-            opacity: 0.25,
-        }
+        Fill::new(self.colour(), 0.25)
     }
 }
 
@@ -225,15 +219,72 @@ fn thinned(line: &[Spot]) -> Vec<Spot> {
         let height = |&i: &usize, &j: &usize| run[i][1].total_cmp(&run[j][1]);
         let lowest = (0..run.len()).min_by(height).unwrap_or(0);
         let highest = (0..run.len()).max_by(height).unwrap_or(0);
-        let mut kept = [0, lowest, highest, run.len() - 1];
+        let mut kept = vec![0, lowest, highest, run.len() - 1];
         kept.sort_unstable();
-        for (i, &k) in kept.iter().enumerate() {
-            if i == 0 || kept[i - 1] != k {
-                out.push(run[k]);
+        kept.dedup();
+        out.extend(kept.into_iter().map(|k| run[k]));
+    }
+    out
+}
+
+/// Draws names and samples of the series that have a name, in the corner where they hide least.
+pub(crate) fn draw_legend(on: &mut dyn DrawTarget, marks: &[Mark], axes: &Axes) {
+    let size = 0.92 * axes.size;
+    let named: Vec<&Mark> = marks.iter().filter(|m| m.is_named()).collect();
+    if named.is_empty() {
+        return;
+    }
+    let names = named.iter().map(|m| m.series.name.as_str());
+    let width = text::widest(names, size) + 4.2 * size;
+    let height = (1.45 * named.len() as f64 + 0.5) * size;
+    // Grey lines are covered rather than those in the legend.
+    let spots = |named: bool| visited(marks.iter().filter(|m| m.is_named() == named), axes);
+    let spots = [true, false].map(spots);
+    let under = |place: &Rect, k: usize| spots[k].iter().filter(|&&s| place.holds(s)).count();
+    let hidden = |place: &Rect| (under(place, 0), under(place, 1));
+    let places = corners(&axes.frame, width, height, 0.6 * size);
+    let place = places.into_iter().min_by_key(hidden).unwrap_or(axes.frame);
+    on.area(&place.corners(), Fill::new(Colour::WHITE, 0.85));
+    on.line(&place.outline(), Pen::solid(Colour::FAINT, size / 14.0));
+    for (i, mark) in named.iter().enumerate() {
+        let y = place.top + (1.45 * i as f64 + 0.97) * size;
+        let [from, to] = [0.6, 2.8].map(|right| [place.left + right * size, y]);
+        mark.draw_sample(on, [from, to], size);
+        let at = [place.left + 3.4 * size, y + 0.36 * size];
+        on.text(at, &mark.series.name, Lettering::new(size, Anchor::Start));
+    }
+}
+
+/// Right top, left top, right bottom, left bottom.
+fn corners(frame: &Rect, width: f64, height: f64, gap: f64) -> [Rect; 4] {
+    let rights = [frame.right - gap, frame.left + gap + width];
+    let bottoms = [frame.top + gap + height, frame.bottom - gap];
+    [0, 1, 2, 3].map(|i| {
+        let (right, bottom) = (rights[i % 2], bottoms[i / 2]);
+        Rect::between([right - width, bottom - height], [right, bottom])
+    })
+}
+
+/// Spots along all series, close enough together to find those that a box hides.
+fn visited<'a>(marks: impl Iterator<Item = &'a Mark<'a>>, axes: &Axes) -> Vec<Spot> {
+    let step = axes.size;
+    let mut spots = Vec::new();
+    for mark in marks {
+        for stretch in mark.stretches(axes) {
+            spots.extend(&stretch);
+            if mark.series.style == Style::Markers {
+                continue;
+            }
+            for ends in stretch.windows(2) {
+                let d = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+                let parts = (d[0].hypot(d[1]) / step).min(1e3) as usize;
+                let at = |i: usize| i as f64 / (parts + 1) as f64;
+                let between = (1..=parts).map(at);
+                spots.extend(between.map(|t| [ends[0][0] + t * d[0], ends[0][1] + t * d[1]]));
             }
         }
     }
-    out
+    spots
 }
 
 #[cfg(test)]

@@ -3,12 +3,11 @@
 //! Of a surface every particle is a sphere of 1.5 times its diameter. Depths of the nearest spheres are made smooth over
 //! about a diameter, and light from the upper left shades what their slopes are.
 
-use crate::drawing::axes::Axes;
+use crate::drawing::axes::{Axes, View, project};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::colour::{Colour, SERIES};
 use crate::drawing::draw_target::{Fill, Spot};
 use crate::drawing::picture::Picture;
-use crate::drawing::view::{View, project};
 
 /// Diameter of the spheres over that of the particles.
 const SWOLLEN: f64 = 1.5;
@@ -41,11 +40,8 @@ impl Picture<'_> {
                 let (spot, radius) = (axes.spot(x, y), radius(i));
                 let fill = Fill::solid(colour);
                 // A rim separates spheres of one colour.
-                let rim = if self.diameters.is_empty() {
-                    0.0
-                } else {
-                    0.1 * radius
-                };
+                let share = if self.diameters.is_empty() { 0.0 } else { 0.1 };
+                let rim = share * radius;
                 if rim > 0.0 {
                     let dark = Fill::solid(colour.darker());
                     canvas.clipped_disc(spot, radius, dark, &axes.frame);
@@ -164,10 +160,7 @@ impl Relief {
                     if !depth[k].is_finite() {
                         continue;
                     }
-                    let (at, side) = match right {
-                        1 => (i, self.width),
-                        _ => (j, self.height),
-                    };
+                    let (at, side) = [(i, self.width), (j, self.height)][down];
                     let stride = right + down * self.width;
                     let from = k - at.min(reach) * stride;
                     let count = at.min(reach) + 1 + (side - 1 - at).min(reach);

@@ -10,15 +10,14 @@ use std::path::Path;
 
 use sph_core::bounds;
 
-use crate::drawing::axes::{Axes, PlotAxis, left_room};
+use crate::drawing::axes::{Axes, PlotAxis, View, draw_compass, left_room, project};
 use crate::drawing::canvas::{Canvas, SIDES};
 use crate::drawing::colour::{Colour, ColourMap};
-use crate::drawing::colour_bar::{ClassBar, ColourBar};
+use crate::drawing::colour_bar::ColourBar;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Rect, Spot};
 use crate::drawing::extent;
 use crate::drawing::text;
 use crate::drawing::ticks::{time_stamp, widened};
-use crate::drawing::view::{View, draw_compass, project};
 use crate::error::{IoError, Result};
 
 /// A particle field and how it is to be drawn.
@@ -92,8 +91,8 @@ impl<'a> Picture<'a> {
     /// Draws the picture and writes it to `path`, all or nothing.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let drawn = self.draw().map_err(|p| IoError::input(path, p))?;
-        drawn.save(path)
+        let drawn = self.draw().map_err(|p| IoError::input(path, p));
+        drawn?.save(path)
     }
 
     fn draw(&self) -> std::result::Result<Canvas, String> {
@@ -110,18 +109,11 @@ impl<'a> Picture<'a> {
             range,
             colours: self.colours,
             label: self.label,
+            classes: self.classes,
             beyond: [any(&|v| v < range[0]), any(&|v| v > range[1])],
             size,
         };
-        let classes = ClassBar {
-            names: self.classes,
-            size,
-        };
-        let room = match self.classes {
-            [] => bar.room(),
-            _ => classes.room(),
-        };
-        let (axes, height) = self.layout(f64::from(width), size, room);
+        let (axes, height) = self.layout(f64::from(width), size, bar.room());
         let mut canvas = Canvas::new(width, height).ok_or("no memory for the picture")?;
         if self.view != View::Plane {
             self.draw_walls(&mut canvas, &axes);
@@ -140,10 +132,7 @@ impl<'a> Picture<'a> {
             View::Above => draw_compass(&mut canvas, &axes),
             _ => axes.draw(&mut canvas),
         }
-        match self.classes {
-            [] => bar.draw(&mut canvas, frame),
-            _ => classes.draw(&mut canvas, frame),
-        }
+        bar.draw(&mut canvas, frame);
         let time = self.time.map(time_stamp).unwrap_or_default();
         let taken = text::width(&time, size) + if time.is_empty() { 0.0 } else { size };
         let title = text::fitted(self.title, 1.15 * size, frame.right - frame.left - taken);
@@ -154,28 +143,27 @@ impl<'a> Picture<'a> {
         Ok(canvas)
     }
 
-    /// The contradiction between parts, in words.
     fn check(&self) -> std::result::Result<(), String> {
         let (points, values) = (self.points.len(), self.values.len());
-        if points != values {
-            return Err(format!("{values} values for {points} particles"));
-        }
-        let mut diameters = self.diameters.iter().chain([&self.diameter]);
-        if let Some(bad) = diameters.find(|d| !(d.is_finite() && **d >= 0.0)) {
-            return Err(format!("a diameter of {bad} m"));
-        }
         let sizes = self.diameters.len();
-        if sizes != 0 && sizes != points {
-            return Err(format!("{sizes} diameters for {points} particles"));
-        }
+        let sound = |d: &&f64| d.is_finite() && **d >= 0.0;
+        let bad = self
+            .diameters
+            .iter()
+            .chain([&self.diameter])
+            .find(|d| !sound(d));
         let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
-        if let Some(range) = self.range.filter(|r| !rising(r)) {
-            return Err(format!("a colour range of {range:?}"));
-        }
-        if let Some(window) = self.window.filter(|w| !w.iter().all(rising)) {
-            return Err(format!("a window of {window:?} m"));
-        }
-        Ok(())
+        let range = self.range.filter(|r| !rising(r));
+        let window = self.window.filter(|w| !w.iter().all(rising));
+        let faults = [
+            (points != values).then(|| format!("{values} values for {points} particles")),
+            bad.map(|bad| format!("a diameter of {bad} m")),
+            (sizes != 0 && sizes != points)
+                .then(|| format!("{sizes} diameters for {points} particles")),
+            range.map(|range| format!("a colour range of {range:?}")),
+            window.map(|window| format!("a window of {window:?} m")),
+        ];
+        faults.into_iter().flatten().next().map_or(Ok(()), Err)
     }
 
     /// The axes in their place, and the height of the picture in pixels.
@@ -206,12 +194,7 @@ impl<'a> Picture<'a> {
                 [lo - spare, hi + spare]
             };
             Axes {
-                frame: Rect {
-                    left,
-                    top,
-                    right: left + wide,
-                    bottom: top + high,
-                },
+                frame: Rect::between([left, top], [left + wide, top + high]),
                 x: axis(fitted(window[0], wide), "x [m]"),
                 y: axis(fitted(window[1], high), upwards),
                 size,
@@ -221,11 +204,7 @@ impl<'a> Picture<'a> {
         // How wide the tick labels are depends on the frame beside them.
         let mut axes = placed(4.0 * size, 0.0);
         for _ in 0..3 {
-            let top = if axes.y.ticks(5).factor.is_some() {
-                3.6
-            } else {
-                2.3
-            };
+            let top = axes.y.ticks(5).factor.map_or(2.3, |_| 3.6);
             let left = left_room(&axes.y, axes.frame.height(), size);
             axes = placed(left, top * size);
         }
@@ -269,19 +248,11 @@ impl<'a> Picture<'a> {
             let [x, y] = axes.spot(x, y);
             let wide = text::width(text, size);
             // Texts do not leave the frame.
-            let x = (x + 0.3 * size)
-                .min(axes.frame.right - wide)
-                .max(axes.frame.left);
-            let y = (y - 0.3 * size).clamp(axes.frame.top + size, axes.frame.bottom);
-            let paper = Fill {
-                colour: Colour::WHITE,
-                opacity: 0.7,
-            };
-            let (above, below) = (y - 0.85 * size, y + 0.25 * size);
-            canvas.area(
-                &[[x, above], [x + wide, above], [x + wide, below], [x, below]],
-                paper,
-            );
+            let frame = &axes.frame;
+            let x = (x + 0.3 * size).min(frame.right - wide).max(frame.left);
+            let y = (y - 0.3 * size).clamp(frame.top + size, frame.bottom);
+            let paper = Rect::between([x, y - 0.85 * size], [x + wide, y + 0.25 * size]);
+            canvas.area(&paper.corners(), Fill::new(Colour::WHITE, 0.7));
             canvas.text([x, y], text, Lettering::new(size, Anchor::Start));
         }
     }
@@ -299,13 +270,12 @@ impl<'a> Picture<'a> {
             let angle = std::f64::consts::TAU * turn;
             [centre[0] + r * angle.cos(), centre[1] + r * angle.sin()]
         };
-        let mut lines: Vec<Vec<[f64; 2]>> = (0..48)
-            .map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)).to_vec())
-            .collect();
-        lines.extend((0..4).map(|k| {
+        let arcs = (0..48).map(|k| [k, k + 1].map(|k| at(radius, f64::from(k) / 48.0)));
+        let strokes = (0..4).map(|k| {
             let turn = f64::from(k) / 4.0;
-            vec![at(radius, turn), at(radius + 1.2 * axes.size, turn)]
-        }));
+            [at(radius, turn), at(radius + 1.2 * axes.size, turn)]
+        });
+        let lines: Vec<[Spot; 2]> = arcs.chain(strokes).collect();
         // A light edge shows it on dark ground.
         for (colour, width) in [(Colour::WHITE, 0.3), (Colour::RING, 0.15)] {
             let pen = Pen::solid(colour, width * axes.size);

@@ -1,7 +1,6 @@
 //! Lines, markers and bands over two axes, alone or side by side, as PNG or SVG.
 //!
-//! Meant for probes against reference data and for work–precision plots, not
-//! for publication: everything is automatic.
+//! Meant for probes against reference data and for work–precision plots, not for publication: everything is automatic.
 
 use std::path::Path;
 
@@ -10,8 +9,7 @@ use sph_core::bounds;
 use crate::drawing::axes::{Axes, PlotAxis, left_room, shown};
 use crate::drawing::canvas::Canvas;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Lettering, Rect};
-use crate::drawing::legend::draw_legend;
-use crate::drawing::mark::{Mark, Series, Style};
+use crate::drawing::mark::{Mark, Series, Style, draw_legend};
 use crate::drawing::svg::Svg;
 use crate::drawing::ticks::widened;
 use crate::error::{IoError, Result};
@@ -77,14 +75,9 @@ impl Plot {
     }
 
     fn check(&self, path: &Path) -> Result<()> {
-        for Series {
-            name,
-            points,
-            style,
-        } in &self.series
-        {
-            let points = points.len();
-            if let Style::Band(upper) = style
+        for series in &self.series {
+            let (name, points) = (&series.name, series.points.len());
+            if let Style::Band(upper) = &series.style
                 && upper.len() != points
             {
                 let upper = upper.len();
@@ -95,7 +88,6 @@ impl Plot {
         Ok(())
     }
 
-    /// Draws the plot into a part of a surface.
     fn draw(&self, on: &mut dyn DrawTarget, place: &Rect) {
         let axes = self.axes(place);
         let numbered = self.series.iter().enumerate();
@@ -122,13 +114,9 @@ impl Plot {
         let room = y.ticks(8).factor.map_or(0.0, |_| 0.9);
         let top = place.top + top + room * LETTERS;
         let bottom = place.bottom - 3.6 * LETTERS;
+        let left = place.left + left_room(&y, bottom - top, LETTERS);
         Axes {
-            frame: Rect {
-                left: place.left + left_room(&y, bottom - top, LETTERS),
-                top,
-                right: place.right - 1.6 * LETTERS,
-                bottom,
-            },
+            frame: Rect::between([left, top], [place.right - 1.6 * LETTERS, bottom]),
             x,
             y,
             size: LETTERS,
@@ -199,8 +187,7 @@ impl Panels {
     /// Writes the picture as vectors if the name ends in `.svg`, else as PNG.
     ///
     /// # Errors
-    /// If there are no panels or too many, the series of one do not fit together, or the file
-    /// cannot be written.
+    /// If there are no panels or too many, the series of one do not fit together, or the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         if self.0.is_empty() || self.0.len() > MOST {
@@ -211,14 +198,9 @@ impl Panels {
         let [width, height] = PANEL;
         save(path, [width * self.0.len() as u32, height], |on| {
             for (number, plot) in (1..).zip(&self.0) {
-                let left = f64::from((number - 1) * width);
-                plot.draw(
-                    on,
-                    &Rect {
-                        left,
-                        ..Rect::sized([number * width, height])
-                    },
-                );
+                let mut place = Rect::sized([number * width, height]);
+                place.left = f64::from((number - 1) * width);
+                plot.draw(on, &place);
             }
         })
     }

@@ -5,16 +5,14 @@ use std::path::Path;
 use crate::drawing::colour::Colour;
 use crate::drawing::draw_target::{Anchor, DrawTarget, Fill, Lettering, Pen, Spot};
 use crate::error::Result;
-use crate::files::atomic::write_whole;
-use crate::paraview::xml::escape;
+use crate::files::clean::escape;
+use crate::files::disk::write_whole;
 
-/// An SVG document, white at first.
 pub(crate) struct Svg {
     body: String,
 }
 
 impl Svg {
-    /// A document of `width` by `height` pixels.
     pub(crate) fn new(width: u32, height: u32) -> Self {
         let body = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -25,13 +23,11 @@ impl Svg {
         Self { body }
     }
 
-    /// The whole document.
     pub(crate) fn finish(mut self) -> String {
         self.body.push_str("</svg>\n");
         self.body
     }
 
-    /// Writes the document to `path`, all or nothing.
     pub(crate) fn save(self, path: &Path) -> Result<()> {
         write_whole(path, self.finish())
     }
@@ -94,9 +90,6 @@ fn code(Colour([r, g, b]): Colour) -> String {
 }
 
 fn list(points: &[Spot]) -> String {
-    let spots: Vec<String> = points
-        .iter()
-        .map(|[x, y]| format!("{x:.2},{y:.2}"))
-        .collect();
-    spots.join(" ")
+    let spots = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}"));
+    spots.collect::<Vec<_>>().join(" ")
 }

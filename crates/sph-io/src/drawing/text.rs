@@ -88,10 +88,8 @@ mod tests {
 
     #[test]
     fn widths_scale_with_the_size() {
-        let (small, large) = (width("pressure [Pa]", 10.0), width("pressure [Pa]", 20.0));
-        assert!(
-            small > 50.0 && (large - 2.0 * small).abs() < 0.1,
-            "{small} {large}"
-        );
+        let [small, large] = [10.0, 20.0].map(|size| width("pressure [Pa]", size));
+        let alike = small > 50.0 && (large - 2.0 * small).abs() < 0.1;
+        assert!(alike, "{small} {large}");
     }
 }

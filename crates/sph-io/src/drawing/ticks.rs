@@ -1,6 +1,5 @@
 //! Round numbers along an axis, and how they are written.
 
-/// Marks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ticks {
     /// Marked and labelled.
@@ -9,6 +8,17 @@ pub(crate) struct Ticks {
     pub(crate) minor: Vec<f64>,
     /// Power of ten by which all labels are to be multiplied, such as `×10⁵`.
     pub(crate) factor: Option<String>,
+}
+
+impl Ticks {
+    /// Labelled ones alone, whose labels leave a power of ten out.
+    fn with_power(major: Vec<(f64, String)>, power: i32) -> Self {
+        Ticks {
+            major,
+            minor: Vec::new(),
+            factor: (power != 0).then(|| format!("×{}", power_of_ten(power))),
+        }
+    }
 }
 
 /// About `wanted` multiples of 1, 2 or 5 times a power of ten within `lo`…`hi`.
@@ -33,11 +43,8 @@ pub(crate) fn linear(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let unit = 10_f64.powi(power);
     let decimals = (-(step / unit).log10() - slack).ceil().clamp(0.0, 12.0) as usize;
     let label = |v: f64| minus(format!("{:.decimals$}", v / unit + 0.0));
-    Ticks {
-        major: values.into_iter().map(|v| (v, label(v))).collect(),
-        minor: Vec::new(),
-        factor: factor(power),
-    }
+    let major = values.into_iter().map(|v| (v, label(v)));
+    Ticks::with_power(major.collect(), power)
 }
 
 /// Powers of ten within `lo`…`hi`, both positive, with minor ticks between;
@@ -80,23 +87,14 @@ fn ones_twos_and_fives(lo: f64, hi: f64) -> Ticks {
         let label = format!("{}", m * 10_f64.powi(k - power));
         (m * 10_f64.powi(k), minus(label))
     });
-    Ticks {
-        major: marks.filter(|(v, _)| (lo..=hi).contains(v)).collect(),
-        minor: Vec::new(),
-        factor: factor(power),
-    }
-}
-
-fn factor(power: i32) -> Option<String> {
-    (power != 0).then(|| format!("×{}", power_of_ten(power)))
+    let major = marks.filter(|(v, _)| (lo..=hi).contains(v));
+    Ticks::with_power(major.collect(), power)
 }
 
 /// The power of ten that labels up to `largest` leave out.
 fn shared_power(largest: f64) -> i32 {
-    let power = match largest > 0.0 {
-        true => largest.log10().floor() as i32,
-        false => 0,
-    };
+    let exponent = || largest.log10().floor() as i32;
+    let power = if largest > 0.0 { exponent() } else { 0 };
     if (-3..5).contains(&power) { 0 } else { power }
 }
 

@@ -1,4 +1,4 @@
-//! Texts from files, so that a terminal shows them and does not execute them.
+//! Texts from files, so that a terminal shows them and does not execute them, and texts in XML.
 //!
 //! Escape sequences move the cursor, set titles and clear text; marks of direction show a text in
 //! another order than it has. Either may stand in a title, a key, a value or the name of a file.
@@ -19,27 +19,25 @@ fn is_control(c: char) -> bool {
 /// The text with a stand-in for every such character, of as many bytes, so that places in it stay right.
 pub fn clean(text: &str) -> Cow<'_, str> {
     match text.contains(is_control) {
-        false => Cow::Borrowed(text),
-        true => Cow::Owned(text.chars().flat_map(shown).collect()),
+        false => text.into(),
+        true => text.chars().flat_map(shown).collect(),
     }
 }
 
 /// A text of JSON with such characters as escapes: it is read back as it was.
 pub fn escaped(json: &str) -> Cow<'_, str> {
     if !json.contains(is_control) {
-        return Cow::Borrowed(json);
+        return json.into();
     }
     let mut text = String::with_capacity(json.len());
     for c in json.chars() {
         match is_control(c) {
-            true => c
-                .encode_utf16(&mut [0; 2])
-                .iter()
-                .for_each(|u| text.push_str(&format!("\\u{u:04x}"))),
+            true => (c.encode_utf16(&mut [0; 2]).iter())
+                .for_each(|unit| text.push_str(&format!("\\u{unit:04x}"))),
             false => text.push(c),
         }
     }
-    Cow::Owned(text)
+    text.into()
 }
 
 fn shown(c: char) -> impl Iterator<Item = char> {
@@ -51,6 +49,22 @@ fn shown(c: char) -> impl Iterator<Item = char> {
         (true, bytes) => ('?', bytes),
     };
     std::iter::repeat_n(stand_in, times)
+}
+
+/// `text` as it may stand inside a quoted attribute or an element.
+///
+/// Control characters that XML 1.0 forbids become `?`.
+pub fn escape(text: &str) -> Cow<'_, str> {
+    let odd = |c: char| matches!(c, '&' | '<' | '>' | '"' | '\'') || c.is_control();
+    if !text.contains(odd) {
+        return text.into();
+    }
+    let text = text
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;");
+    let text = text.replace('"', "&quot;").replace('\'', "&apos;");
+    text.replace(|c: char| c.is_control(), "?").into()
 }
 
 #[cfg(test)]
@@ -73,5 +87,15 @@ mod tests {
         assert_eq!(back, [hostile]);
         let plain = "η̃ = 1 Pa·s — ½ ≤ √2, 水";
         assert!(matches!(clean(plain), Cow::Borrowed(same) if same == plain));
+    }
+
+    #[test]
+    fn a_reader_of_xml_undoes_it() {
+        let odd = r#"a < b & "c" > 'd' &lt;"#;
+        let text = format!("<a b=\"{0}\">{0}</a>", escape(odd));
+        let read = roxmltree::Document::parse(&text).unwrap();
+        let node = read.root_element();
+        assert_eq!((node.attribute("b"), node.text()), (Some(odd), Some(odd)));
+        assert_eq!(escape("a\u{1}b"), "a?b");
     }
 }

@@ -1,8 +1,7 @@
 //! One writer per folder.
 //!
-//! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it,
-//! however that ends, so that a stale one locks no folder. The content of the file names
-//! its holder.
+//! The lock is one of the operating system on the file `.lock`: it ends with the process that holds it, however that
+//! ends, so that a stale one locks no folder. The content of the file names its holder.
 
 use std::fmt::{self, Write as _};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -14,7 +13,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{IoError, Result};
 
-/// Name of the file.
 const LOCK: &str = ".lock";
 /// Longest content that is read of it, bytes.
 const LONGEST: u64 = 4096;
@@ -31,7 +29,6 @@ pub struct Holder {
 }
 
 impl Holder {
-    /// This process, now.
     fn this_process() -> Self {
         let mut since = String::new();
         // A clock that is beyond the years of the format leaves it empty.
@@ -73,9 +70,6 @@ impl FolderLock {
     }
 
     /// As [`take`](Self::take), of a folder that another process may remove: it is not made again.
-    ///
-    /// # Errors
-    /// [`IoError::InUse`] if another run holds it; if the file in it cannot be made.
     pub(crate) fn take_existing(folder: &Path) -> Result<Self> {
         let path = folder.join(LOCK);
         let failed = |source| IoError::NotWritable(folder.into(), source);
@@ -138,11 +132,8 @@ pub(crate) fn left(folder: &Path) -> Option<File> {
 
 /// The file, made if it is not there; only a plain file is opened, no link and no pipe.
 fn opened(path: &Path) -> io::Result<File> {
-    match fs::symlink_metadata(path) {
-        Ok(known) if !known.is_file() => {
-            return Err(io::Error::other(format!("`{LOCK}` in it is not a file")));
-        }
-        _ => {}
+    if fs::symlink_metadata(path).is_ok_and(|known| !known.is_file()) {
+        return Err(io::Error::other(format!("`{LOCK}` in it is not a file")));
     }
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
@@ -183,8 +174,8 @@ fn sign(file: &mut File) -> io::Result<()> {
 fn host() -> String {
     let files = ["/proc/sys/kernel/hostname", "/etc/hostname"];
     let told = files.iter().find_map(|f| fs::read_to_string(f).ok());
-    let told = told.or_else(|| std::env::var("COMPUTERNAME").ok());
-    let told = told.or_else(|| std::env::var("HOSTNAME").ok());
+    let variables = ["COMPUTERNAME", "HOSTNAME"].into_iter();
+    let told = told.or_else(|| variables.filter_map(|v| std::env::var(v).ok()).next());
     let name = told.as_deref().map_or("", str::trim);
     if name.is_empty() { "this host" } else { name }.to_string()
 }
@@ -205,11 +196,8 @@ mod tests {
         let me = format!("process {} on {} since 20", std::process::id(), host());
         assert!(told.contains(&me) && told.contains("a/b"), "{told}");
         drop(first);
-        assert_eq!(
-            fs::read_dir(&out).unwrap().count(),
-            0,
-            "and nothing is left"
-        );
+        let left = fs::read_dir(&out).unwrap().count();
+        assert_eq!(left, 0, "and nothing is left");
         FolderLock::take(&out).unwrap();
     }
 

@@ -41,18 +41,14 @@ impl Scratch {
             match FolderLock::take_existing(folder.path()) {
                 Ok(lock) => break (lock, folder),
                 // Another process swept it before it was held, or holds it to sweep it.
-                Err(e) => match e {
-                    IoError::InUse(..) if tries < TRIES => tries += 1,
-                    _ if tries < TRIES && !folder.path().exists() => tries += 1,
-                    _ => return Err(e),
-                },
+                Err(IoError::InUse(..)) if tries < TRIES => tries += 1,
+                Err(_) if tries < TRIES && !folder.path().exists() => tries += 1,
+                Err(e) => return Err(e),
             }
         };
         sweep(place, prefix, folder.path());
-        Ok(Scratch {
-            _lock: lock,
-            folder,
-        })
+        let _lock = lock;
+        Ok(Scratch { _lock, folder })
     }
 
     /// Path of the folder.
@@ -127,13 +123,9 @@ mod tests {
         let second = Scratch::create_in(place.path(), ".sph-data-").unwrap();
         assert!(held.path() != second.path() && held.path().exists());
         assert!(at(".sph-data-other/mine").exists() && at("results/.lock").exists());
-        let (first, second) = (held.path().to_path_buf(), {
-            let path = second.path().to_path_buf();
-            drop(second);
-            path
-        });
-        drop(held);
-        assert!(!first.exists() && !second.exists());
+        let paths = [&held, &second].map(|scratch| scratch.path().to_path_buf());
+        drop((second, held));
+        assert!(paths.iter().all(|path| !path.exists()));
     }
 
     #[test]

@@ -5,13 +5,12 @@ use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
+use crate::files::disk::write_whole;
 
 /// Writes a CSV file with a header `time[s],dt[s],…`, one flushed row at a time.
 ///
-/// Reals are written in the shortest form that reads back to the same bits
-/// (but for the payload of a NaN). A row that cannot be written whole is taken
-/// back, so that the file always ends after a row.
+/// Reals are written in the shortest form that reads back to the same bits (but for the payload of a NaN). A row that
+/// cannot be written whole is taken back, so that the file always ends after a row.
 #[derive(Debug)]
 pub struct SeriesWriter {
     path: PathBuf,
@@ -33,8 +32,7 @@ fn leads_elsewhere(path: &Path) -> bool {
 }
 
 impl SeriesWriter {
-    /// Starts a series with columns given as (name, unit); an empty unit
-    /// stands for a pure number.
+    /// Starts a series with columns given as (name, unit); an empty unit stands for a pure number.
     ///
     /// ```
     /// # use sph_io::{SeriesWriter, read_table};
@@ -51,14 +49,14 @@ impl SeriesWriter {
     ) -> Result<Self> {
         let path = path.as_ref();
         let cells = headings(path, columns)?;
+        let failed = |e| IoError::write(path, e);
         if leads_elsewhere(path) {
-            let error = std::io::Error::other("what has this name is a link or a pipe");
-            return Err(IoError::write(path, error));
+            let why = "what has this name is a link or a pipe";
+            return Err(failed(std::io::Error::other(why)));
         }
-        let file = File::create(path).map_err(|e| IoError::write(path, e))?;
         let mut series = Self {
-            path: path.to_path_buf(),
-            file,
+            path: path.into(),
+            file: File::create(path).map_err(failed)?,
             columns: cells.len(),
             position: 0,
         };
@@ -102,7 +100,7 @@ impl SeriesWriter {
         }
         file.set_len(offset).map_err(|e| IoError::write(path, e))?;
         Ok(Self {
-            path: path.to_path_buf(),
+            path: path.into(),
             file,
             columns: cells.len(),
             position: offset,
@@ -115,8 +113,7 @@ impl SeriesWriter {
         self.append(&line)
     }
 
-    /// Length of the file in bytes; give it to
-    /// [`open_truncated`](Self::open_truncated) to continue from here.
+    /// Length of the file in bytes; give it to [`open_truncated`](Self::open_truncated) to continue from here.
     pub fn position(&self) -> u64 {
         self.position
     }
@@ -171,7 +168,6 @@ fn difference(header: &str, cells: &[String]) -> Option<String> {
     }
 }
 
-/// A row of a table with so many columns.
 fn line(path: &Path, values: &[f64], columns: usize) -> Result<String> {
     if values.len() != columns {
         let problem = format!("a row of {} values for {columns} columns", values.len());

@@ -1,13 +1,12 @@
 //! Reading tables of numbers, such as reference data.
 //!
-//! A table is text with one row per line, cells separated by commas (or
-//! semicolons, or tabs, whichever the first line uses). Blank lines and lines
-//! starting with `#` are skipped, spaces around cells ignored. The first line
-//! names the columns, with a unit in brackets if known: `time[s]`; if it holds
-//! only numbers, the columns are named `column1`, `column2`, ….
+//! A table is text with one row per line, cells separated by commas (or semicolons, or tabs, whichever the first line
+//! uses). Blank lines and lines starting with `#` are skipped, spaces around cells ignored. The first line names the
+//! columns, with a unit in brackets if known: `time[s]`; if it holds only numbers, the columns are named `column1`,
+//! `column2`, ….
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::{IoError, Result};
 
@@ -63,13 +62,14 @@ impl TableColumn {
 
 /// Reads all columns of `path`; every cell must be a number.
 pub fn read_table(path: impl AsRef<Path>) -> Result<Table> {
-    Source::open(path.as_ref())?.read(None)
+    let path = path.as_ref();
+    parse(&text(path)?, path, None)
 }
 
-/// Reads only the columns `names` of `path`, in that order; cells of other
-/// columns may hold anything or nothing.
+/// Reads only the columns `names` of `path`, in that order; cells of other columns may hold anything or nothing.
 pub fn read_columns(path: impl AsRef<Path>, names: &[&str]) -> Result<Table> {
-    Source::open(path.as_ref())?.read(Some(names))
+    let path = path.as_ref();
+    parse(&text(path)?, path, Some(names))
 }
 
 /// Most columns of a table.
@@ -81,106 +81,76 @@ impl Table {
     /// # Errors
     /// The line and the column that hold no number.
     pub fn parse(text: &str, name: &str) -> Result<Self> {
-        let (path, text) = (name.into(), text.to_string());
-        Source { path, text }.read(None)
+        parse(text, Path::new(name), None)
     }
 }
 
-/// The text of a table and how it is cut.
-struct Source {
-    path: PathBuf,
-    text: String,
+fn text(path: &Path) -> Result<String> {
+    let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
+    String::from_utf8(bytes).map_err(|e| {
+        let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+        let begun = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
+        let column = 1 + String::from_utf8_lossy(begun).chars().count();
+        let problem = format!("this is no UTF-8 text (column {column})");
+        IoError::Table(path.into(), line, problem)
+    })
 }
 
-impl Source {
-    fn open(path: &Path) -> Result<Self> {
-        let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
-        let path = path.to_path_buf();
-        match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { path, text }),
-            Err(e) => {
-                let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-                let line = 1 + before.iter().filter(|b| **b == b'\n').count();
-                let begun = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
-                let column = 1 + String::from_utf8_lossy(begun).chars().count();
-                let problem = format!("this is no UTF-8 text (column {column})");
-                Err(IoError::Table(path, line, problem))
-            }
+fn parse(text: &str, path: &Path, names: Option<&[&str]>) -> Result<Table> {
+    let fault = |line: usize, problem: String| IoError::Table(path.into(), line, problem);
+    let text = text.trim_start_matches('\u{feff}');
+    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
+    let mut lines = lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#'));
+    let none = || fault(1, "the table has no rows".into());
+    let (line, first) = lines.next().ok_or_else(none)?;
+    let separator = [',', ';', '\t'].into_iter().find(|&c| first.contains(c));
+    let separator = separator.unwrap_or(',');
+    let cells = split(first, separator);
+    if cells.len() > COLUMNS {
+        return Err(fault(line, format!("more than {COLUMNS} columns")));
+    }
+    let bare = cells.iter().all(|c| c.parse::<f64>().is_ok());
+    let numbered = |(i, cell): (usize, &String)| match bare {
+        true => TableColumn::named(&format!("column{}", i + 1)),
+        false => TableColumn::named(cell),
+    };
+    let headings: Vec<TableColumn> = cells.iter().enumerate().map(numbered).collect();
+    let place = |name: &&str| {
+        let found = headings.iter().position(|h| h.answers_to(name));
+        found.ok_or_else(|| {
+            let known: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
+            let known = known.join("`, `");
+            fault(line, format!("no column `{name}`, there are `{known}`"))
+        })
+    };
+    let chosen: Vec<usize> = match names {
+        Some(names) => names.iter().map(place).collect::<Result<_>>()?,
+        None => (0..headings.len()).collect(),
+    };
+    let mut columns: Vec<_> = chosen.iter().map(|&i| headings[i].clone()).collect();
+    for (line, row) in bare.then_some((line, first)).into_iter().chain(lines) {
+        let cells = split(row, separator);
+        let (found, wanted) = (cells.len(), headings.len());
+        if found != wanted {
+            let more = if found > COLUMNS { "more than " } else { "" };
+            let found = found.min(COLUMNS);
+            let problem = format!("{more}{found} cells for {wanted} columns");
+            return Err(fault(line, problem));
+        }
+        for (&i, column) in chosen.iter().zip(&mut columns) {
+            let (cell, number, name) = (&cells[i], i + 1, &column.name);
+            let value = cell.parse().map_err(|_| match cell.as_str() {
+                "" => fault(line, format!("column {number} `{name}` is empty")),
+                _ => {
+                    let problem = format!("column {number} `{name}` is not a number but `{cell}`");
+                    fault(line, problem)
+                }
+            })?;
+            column.values.push(value);
         }
     }
-
-    fn read(&self, names: Option<&[&str]>) -> Result<Table> {
-        let text = self.text.trim_start_matches('\u{feff}');
-        let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
-        let mut lines = lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#'));
-        let Some((line, first)) = lines.next() else {
-            return Err(self.fault(1, "the table has no rows"));
-        };
-        let separator = [',', ';', '\t'].into_iter().find(|&c| first.contains(c));
-        let separator = separator.unwrap_or(',');
-        let cells = split(first, separator);
-        if cells.len() > COLUMNS {
-            return Err(self.fault(line, format!("more than {COLUMNS} columns")));
-        }
-        let bare = cells.iter().all(|c| c.parse::<f64>().is_ok());
-        let headings: Vec<TableColumn> = if bare {
-            let number = |i| TableColumn::named(&format!("column{i}"));
-            (1..=cells.len()).map(number).collect()
-        } else {
-            cells.iter().map(|c| TableColumn::named(c)).collect()
-        };
-        let chosen = self.choose(&headings, names, line)?;
-        let mut columns: Vec<_> = chosen.iter().map(|&i| headings[i].clone()).collect();
-        for (line, row) in bare.then_some((line, first)).into_iter().chain(lines) {
-            let cells = split(row, separator);
-            if cells.len() != headings.len() {
-                let (found, wanted) = (cells.len(), headings.len());
-                let more = if found > COLUMNS { "more than " } else { "" };
-                let found = found.min(COLUMNS);
-                let problem = format!("{more}{found} cells for {wanted} columns");
-                return Err(self.fault(line, problem));
-            }
-            for (&i, column) in chosen.iter().zip(&mut columns) {
-                let (cell, name) = (&cells[i], &column.name);
-                let value = cell.parse().map_err(|_| {
-                    let number = i + 1;
-                    let problem = if cell.is_empty() {
-                        format!("column {number} `{name}` is empty")
-                    } else {
-                        format!("column {number} `{name}` is not a number but `{cell}`")
-                    };
-                    self.fault(line, problem)
-                })?;
-                column.values.push(value);
-            }
-        }
-        Ok(Table { columns })
-    }
-
-    /// The places of the requested columns.
-    fn choose(
-        &self,
-        headings: &[TableColumn],
-        names: Option<&[&str]>,
-        line: usize,
-    ) -> Result<Vec<usize>> {
-        let Some(names) = names else {
-            return Ok((0..headings.len()).collect());
-        };
-        let place = |name: &&str| {
-            let found = headings.iter().position(|h| h.answers_to(name));
-            found.ok_or_else(|| {
-                let known: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
-                let known = known.join("`, `");
-                self.fault(line, format!("no column `{name}`, there are `{known}`"))
-            })
-        };
-        names.iter().map(place).collect()
-    }
-
-    fn fault(&self, line: usize, problem: impl Into<String>) -> IoError {
-        IoError::Table(self.path.clone(), line, problem.into())
-    }
+    Ok(Table { columns })
 }
 
 /// The trimmed cells of `row`, of more than [`COLUMNS`] one more than these; separators between double quotes do
@@ -211,11 +181,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str, names: Option<&[&str]>) -> Result<Table> {
-        Source {
-            path: "ref.csv".into(),
-            text: text.into(),
-        }
-        .read(names)
+        parse(text, Path::new("ref.csv"), names)
     }
 
     fn complaint(text: &str) -> String {
@@ -247,10 +213,8 @@ mod tests {
         assert_eq!(table.columns[0].values, [0.16, 0.19]);
         assert_eq!(table.columns[1].values, [100.0, 200.0]);
         let error = read(text, Some(&["Cd"])).unwrap_err().to_string();
-        assert!(
-            error.contains("`Cd`") && error.contains("`study`"),
-            "{error}"
-        );
+        let named = error.contains("`Cd`") && error.contains("`study`");
+        assert!(named, "{error}");
     }
 
     #[test]
@@ -258,10 +222,8 @@ mod tests {
         let empty = complaint("# c\nt,p\n0,1\n2,\n");
         assert_eq!(empty, "ref.csv, line 4: column 2 `p` is empty");
         let word = complaint("t,p\nx,1\n");
-        assert_eq!(
-            word,
-            "ref.csv, line 2: column 1 `t` is not a number but `x`"
-        );
+        let wanted = "ref.csv, line 2: column 1 `t` is not a number but `x`";
+        assert_eq!(word, wanted);
         assert!(complaint("t,p\n0,1,2\n").contains("line 2: 3 cells for 2 columns"));
         assert!(complaint("# nothing\n\n").contains("no rows"));
         let absent = read_table("/no/such/file.csv").unwrap_err();

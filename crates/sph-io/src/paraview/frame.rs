@@ -1,7 +1,6 @@
 //! One output time as plain data: points, cells and named fields.
 //!
-//! Everything may be borrowed, so that writing copies nothing that the solver
-//! already holds in the right shape.
+//! Everything may be borrowed, so that writing copies nothing that the solver already holds in the right shape.
 
 use std::borrow::Cow;
 
@@ -83,7 +82,6 @@ pub enum FieldValues<'a> {
 }
 
 impl FieldValues<'_> {
-    /// Number of values.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
@@ -101,7 +99,6 @@ impl FieldValues<'_> {
         }
     }
 
-    /// VTK's name of their type.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
             Self::F64(_) => "Float64",
@@ -119,15 +116,6 @@ impl<'a> FieldData<'a> {
         data: impl Into<Cow<'a, [f64]>>,
     ) -> Self {
         Self::tensor(name, unit, 1, data)
-    }
-
-    /// Three reals per point.
-    pub fn vector(
-        name: impl Into<Cow<'a, str>>,
-        unit: impl Into<Cow<'a, str>>,
-        data: &'a [[f64; 3]],
-    ) -> Self {
-        Self::tensor(name, unit, 3, data.as_flattened())
     }
 
     /// Some reals per point: a tensor, as its components stand in the data.
@@ -203,15 +191,13 @@ impl Piece<'_> {
             if self.fields[..i].iter().any(twin) {
                 return Err(format!("piece `{piece}` has two fields named `{name}`"));
             }
-            let tuples = match field.location {
-                Location::Point => points,
-                Location::Cell => cells,
-            };
+            let at_points = field.location == Location::Point;
+            let tuples = if at_points { points } else { cells };
             let (found, per) = (field.data.len(), field.components);
             if per == 0 || tuples.checked_mul(per) != Some(found) {
+                let wanted = format!("expected {tuples} tuples of {per}");
                 return Err(format!(
-                    "field `{name}` of piece `{piece}` holds {found} numbers, \
-                     expected {tuples} tuples of {per}"
+                    "field `{name}` of piece `{piece}` holds {found} numbers, {wanted}"
                 ));
             }
         }
@@ -236,10 +222,8 @@ mod tests {
     fn misfits_are_named() {
         let short = FieldData::scalar("pressure", "Pa", vec![0.0; 2]);
         let said = piece(Cells::Vertices, vec![short]).check().unwrap_err();
-        assert!(
-            said.contains("`pressure`") && said.contains("3 tuples"),
-            "{said}"
-        );
+        let named = said.contains("`pressure`") && said.contains("3 tuples");
+        assert!(named, "{said}");
 
         let id = FieldData::integer("id", vec![1, 2, 3]);
         let said = piece(Cells::Vertices, vec![id.clone(), id]).check();

@@ -1,9 +1,8 @@
 //! ParaView's `.pvd`: the list of files that make a time series.
 //!
-//! The list is rewritten all or nothing after every output, so that a running
-//! or killed job can be opened at any time. Its data files lie in a folder of
-//! the same stem beside it, and paths in it are relative, so that both can be
-//! moved together.
+//! The list is rewritten all or nothing after every output, so that a running or killed job can be opened at any time.
+//! Its data files lie in a folder of the same stem beside it, and paths in it are relative, so that both can be moved
+//! together.
 
 use std::fs;
 use std::io;
@@ -12,18 +11,18 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
-use crate::files::folder::{beside, writable};
+use crate::files::clean::escape;
+use crate::files::disk::{beside, writable, write_whole};
 use crate::paraview::frame::Frame;
 use crate::paraview::pvtu::{file_name, write_pvtu, write_share};
 use crate::paraview::vtu::write_vtu;
-use crate::paraview::xml::escape;
 
 /// A time series being written: `fields.pvd` and `fields/fluid_000000.vtu`, …
 #[derive(Debug)]
 pub struct PvdSeries {
     path: PathBuf,
-    entries: Vec<Entry>,
+    /// The files seen from the folder of the list.
+    entries: Vec<SeriesEntry>,
 }
 
 /// A file of a series that has been written.
@@ -42,27 +41,13 @@ pub struct SeriesEntry {
 /// # Errors
 /// If it cannot be read, is not one of [`PvdSeries`], or names a file outside its folder.
 pub fn list_pvd(path: impl AsRef<Path>) -> Result<Vec<SeriesEntry>> {
-    let series = PvdSeries {
-        path: path.as_ref().to_path_buf(),
-        entries: Vec::new(),
-    };
-    let listed = |entry: Entry| {
-        Ok(SeriesEntry {
-            time: entry.time,
-            name: entry.name,
-            path: beside(&series.path, &entry.file)?,
-        })
+    let path = path.as_ref();
+    let listed = |entry: SeriesEntry| {
+        let path = beside(path, &entry.path)?;
+        Ok(SeriesEntry { path, ..entry })
     };
     // A list that is not there is none, not an empty one.
-    series.load(1)?.into_iter().map(listed).collect()
-}
-
-/// One file of the series.
-#[derive(Clone, Debug, PartialEq)]
-struct Entry {
-    time: f64,
-    name: String,
-    file: String,
+    load(path, 1)?.into_iter().map(listed).collect()
 }
 
 impl PvdSeries {
@@ -80,16 +65,12 @@ impl PvdSeries {
     /// which the interrupted run wrote after its last checkpoint, are dropped.
     pub fn open_at(path: impl AsRef<Path>, frames: usize) -> Result<Self> {
         let mut series = Self::create(path)?;
-        let found = series.load(frames)?;
+        let found = load(&series.path, frames)?;
         let times = distinct_times(&found);
         if times.len() < frames {
             let (found, wanted) = (times.len() as u64, frames as u64);
-            return Err(IoError::TooShort(
-                series.path,
-                found,
-                "output times",
-                wanted,
-            ));
+            let path = series.path;
+            return Err(IoError::TooShort(path, found, "output times", wanted));
         }
         let end = frames
             .checked_sub(1)
@@ -101,27 +82,20 @@ impl PvdSeries {
     /// Continues a series after `time` (s); later entries are dropped.
     pub fn open_until(path: impl AsRef<Path>, time: f64) -> Result<Self> {
         let mut series = Self::create(path)?;
-        let found = series.load(0)?;
+        let found = load(&series.path, 0)?;
         series.keep(found, time)?;
         Ok(series)
     }
 
-    /// Writes the pieces of `frame`, lists them, and returns their paths.
+    /// Writes the pieces of `frame`, lists them, and returns their paths. The time must be later than that of the frame
+    /// before.
     ///
-    /// The time must be later than that of the frame before.
+    /// Where several `ranks` write the first piece together, this one's share of it is in the frame; those of the others
+    /// are theirs to [write](crate::write_share).
     ///
     /// # Errors
     /// A file that cannot be written; pieces that do not fit together.
-    pub fn write(&mut self, frame: &Frame) -> Result<Vec<PathBuf>> {
-        self.write_among(frame, 1)
-    }
-
-    /// The same where several `ranks` write the first piece together: this one's share of it is in the frame, those of the
-    /// others are theirs to [write](crate::write_share).
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
-    pub fn write_among(&mut self, frame: &Frame, ranks: usize) -> Result<Vec<PathBuf>> {
+    pub fn write(&mut self, frame: &Frame, ranks: usize) -> Result<Vec<PathBuf>> {
         let refuse = |problem: String| Err(IoError::input(&self.path, problem));
         if let Some(last) = self.entries.last()
             && frame.time.partial_cmp(&last.time) != Some(std::cmp::Ordering::Greater)
@@ -151,10 +125,10 @@ impl PvdSeries {
                     write_pvtu(&path, piece, frame.index, ranks)?;
                 }
             }
-            added.push(Entry {
+            added.push(SeriesEntry {
                 time: frame.time,
                 name,
-                file: format!("{prefix}/{file}"),
+                path: format!("{prefix}/{file}").into(),
             });
             written.push(path);
         }
@@ -187,7 +161,7 @@ impl PvdSeries {
     }
 
     /// Takes over the entries up to `end`, and lists only that.
-    fn keep(&mut self, mut found: Vec<Entry>, end: f64) -> Result<()> {
+    fn keep(&mut self, mut found: Vec<SeriesEntry>, end: f64) -> Result<()> {
         let before = found.len();
         found.retain(|e| e.time <= end);
         self.entries = found;
@@ -210,7 +184,8 @@ impl PvdSeries {
             if known.is_none() {
                 names.push(&e.name);
             }
-            let (time, name, file) = (e.time, escape(&e.name), escape(&e.file));
+            let file = e.path.to_string_lossy();
+            let (time, name, file) = (e.time, escape(&e.name), escape(&file));
             xml.push_str(&format!(
                 "    <DataSet timestep=\"{time:?}\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>\n"
             ));
@@ -218,24 +193,24 @@ impl PvdSeries {
         xml.push_str("  </Collection>\n</VTKFile>\n");
         write_whole(&self.path, xml)
     }
+}
 
-    /// The entries on disk; no file is as good as an empty one if none are wanted.
-    fn load(&self, wanted: usize) -> Result<Vec<Entry>> {
-        let text = match fs::read_to_string(&self.path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
-            Err(e) => return Err(IoError::read(&self.path, e)),
-        };
-        parse(&text).map_err(|problem| IoError::Malformed(self.path.clone(), problem))
-    }
+/// The entries on disk; no file is as good as an empty one if none are wanted.
+fn load(path: &Path, wanted: usize) -> Result<Vec<SeriesEntry>> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(e) if e.kind() == io::ErrorKind::NotFound && wanted == 0 => return Ok(vec![]),
+        Err(e) => return Err(IoError::read(path, e)),
+    };
+    parse(&text).map_err(|problem| IoError::Malformed(path.into(), problem))
 }
 
 /// The entries of a list as this module writes it.
-fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
+fn parse(text: &str) -> std::result::Result<Vec<SeriesEntry>, String> {
     let whole = Document::parse(text).ok();
     let whole = whole.filter(|d| d.root_element().attribute("type") == Some("Collection"));
     let whole = whole.ok_or("it is not a whole VTK collection")?;
-    let mut entries: Vec<Entry> = Vec::new();
+    let mut entries: Vec<SeriesEntry> = Vec::new();
     let listed = whole.descendants().filter(|n| n.has_tag_name("DataSet"));
     for (i, node) in listed.enumerate() {
         let entry = entry(node).ok_or_else(|| format!("entry {} cannot be read", i + 1))?;
@@ -247,16 +222,16 @@ fn parse(text: &str) -> std::result::Result<Vec<Entry>, String> {
     Ok(entries)
 }
 
-fn entry(node: Node<'_, '_>) -> Option<Entry> {
+fn entry(node: Node<'_, '_>) -> Option<SeriesEntry> {
     let time = node.attribute("timestep")?.parse().ok();
-    Some(Entry {
+    Some(SeriesEntry {
         time: time.filter(|t: &f64| t.is_finite())?,
         name: node.attribute("name")?.into(),
-        file: node.attribute("file")?.into(),
+        path: node.attribute("file")?.into(),
     })
 }
 
-fn distinct_times(entries: &[Entry]) -> Vec<f64> {
+fn distinct_times(entries: &[SeriesEntry]) -> Vec<f64> {
     let mut times: Vec<f64> = entries.iter().map(|e| e.time).collect();
     times.dedup();
     times

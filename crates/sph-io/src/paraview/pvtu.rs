@@ -9,12 +9,11 @@ use std::path::{Path, PathBuf};
 use roxmltree::Document;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::write_whole;
-use crate::files::folder::beside;
+use crate::files::clean::escape;
+use crate::files::disk::{beside, write_whole};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
 use crate::paraview::vtu::write_vtu;
-use crate::paraview::vtu_read::read_vtu;
-use crate::paraview::xml::escape;
+use crate::paraview::vtu_read::{piece_name, read_vtu};
 
 /// Writes a process's share of a piece of frame `index` at `time` (s) into a folder, `fluid_000003_r1.vtu` for rank 1, and
 /// returns its path.
@@ -27,8 +26,7 @@ pub fn write_share(
     (index, rank): (usize, usize),
     time: f64,
 ) -> Result<PathBuf> {
-    let name = share_name(&file_name(&piece.name), index, rank);
-    let path = folder.as_ref().join(name);
+    let path = folder.as_ref().join(share_name(piece, index, rank));
     write_vtu(&path, piece, time)?;
     Ok(path)
 }
@@ -42,8 +40,8 @@ pub(crate) fn file_name(name: &str) -> String {
     }
 }
 
-fn share_name(name: &str, index: usize, rank: usize) -> String {
-    format!("{name}_{index:06}_r{rank}.vtu")
+fn share_name(piece: &Piece, index: usize, rank: usize) -> String {
+    format!("{}_{index:06}_r{rank}.vtu", file_name(&piece.name))
 }
 
 /// Writes the list of the shares of a piece of points; `piece` has the arrays that all shares have, with any contents.
@@ -63,12 +61,10 @@ pub(crate) fn write_pvtu(path: &Path, piece: &Piece, index: usize, ranks: usize)
         }
         xml.push_str(&format!("    </P{tag}>\n"));
     }
-    xml.push_str(
-        "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n",
-    );
-    let name = file_name(&piece.name);
+    xml += "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    \
+            </PPoints>\n";
     for rank in 0..ranks {
-        let file = share_name(&name, index, rank);
+        let file = share_name(piece, index, rank);
         xml.push_str(&format!("    <Piece Source=\"{file}\"/>\n"));
     }
     xml.push_str("  </PUnstructuredGrid>\n</VTKFile>\n");
@@ -94,12 +90,10 @@ pub fn read_piece(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     for piece in document.descendants().filter(|n| n.has_tag_name("Piece")) {
         let source = piece.attribute("Source");
         let source = source.ok_or_else(|| unfit("a piece has no file"))?;
-        let (mut share, time) = read_vtu(beside(path, source)?)?;
+        let (mut share, time) = read_vtu(beside(path, source.as_ref())?)?;
         whole = Some(match whole {
             None => {
-                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-                let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
-                share.name = name.to_string().into();
+                share.name = piece_name(path).into();
                 (share, time)
             }
             Some((all, at)) if at == time => {
@@ -119,9 +113,8 @@ fn joined(mut all: Piece<'static>, more: Piece<'static>) -> Option<Piece<'static
         return None;
     }
     all.points.to_mut().extend_from_slice(&more.points);
-    let fields = std::mem::take(&mut all.fields).into_iter();
-    let fields = fields.zip(more.fields).map(same_fields);
-    all.fields = fields.collect::<Option<_>>()?;
+    let fields = all.fields.into_iter().zip(more.fields);
+    all.fields = fields.map(same_fields).collect::<Option<_>>()?;
     Some(all)
 }
 
@@ -175,7 +168,7 @@ mod tests {
             index: 0,
             pieces: vec![share(0, 3)],
         };
-        let written = series.write_among(&frame, 2).unwrap();
+        let written = series.write(&frame, 2).unwrap();
         assert!(written[0].ends_with("fields/fluid_000000.pvtu"));
         let (piece, time) = read_piece(&written[0]).unwrap();
         assert_eq!((time, &*piece.name, piece.points.len()), (0.25, "fluid", 5));

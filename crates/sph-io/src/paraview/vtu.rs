@@ -1,13 +1,10 @@
 //! ParaView's `.vtu`: an unstructured grid as XML with raw, compressed arrays.
 //!
-//! Arrays are appended after the XML in little-endian order, cut into blocks
-//! of 1 MiB, each compressed by zlib. An array starts with `UInt64` numbers:
-//! count of blocks, block size, size of a shorter last block (0 if none), and
-//! the compressed size of every block. Reals keep their 64 bits, the simulated
-//! time is in the field data as `TimeValue`, and units are attached as VTK's
-//! information key `UNITS_LABEL`, so that names stay plain words.
+//! Arrays are appended after the XML in little-endian order, cut into blocks of 1 MiB, each compressed by zlib. An
+//! array starts with `UInt64` numbers: count of blocks, block size, size of a shorter last block (0 if none), and the
+//! compressed size of every block. Reals keep their 64 bits, the simulated time is in the field data as `TimeValue`,
+//! and units are attached as VTK's information key `UNITS_LABEL`, so that names stay plain words.
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
@@ -15,9 +12,9 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 use crate::error::{IoError, Result};
-use crate::files::atomic::{Durability, write_atomic};
+use crate::files::clean::escape;
+use crate::files::disk::{Durability, write_atomic};
 use crate::paraview::frame::{Cells, FieldData, FieldValues, Piece, SECTIONS};
-use crate::paraview::xml::escape;
 
 /// Bytes per compressed block.
 const BLOCK: usize = 1 << 20;
@@ -49,18 +46,16 @@ impl Document {
         let points = piece.points.len();
         let cells = piece.cells.len(points);
         let mut doc = Self::default();
-        doc.line("<?xml version=\"1.0\"?>");
         doc.line(
-            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">",
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  \
+             <UnstructuredGrid>\n    <FieldData>",
         );
-        doc.line("  <UnstructuredGrid>");
-        doc.line("    <FieldData>");
         let tuples = " NumberOfTuples=\"1\"";
         doc.array("TimeValue", "Float64", tuples, "", time.to_le_bytes())?;
-        doc.line("    </FieldData>");
         doc.line(&format!(
-            "    <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
+            "    </FieldData>\n    <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
         ));
         for (tag, location) in SECTIONS {
             doc.line(&format!("      <{tag}>"));
@@ -75,10 +70,7 @@ impl Document {
         doc.array("Points", "Float64", three, "m", coordinates)?;
         doc.line("      </Points>");
         doc.cells(&piece.cells, cells)?;
-        doc.line("    </Piece>");
-        doc.line("  </UnstructuredGrid>");
-        doc.line("  <AppendedData encoding=\"raw\">");
-        doc.xml.push('_');
+        doc.xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
         Ok(doc)
     }
 
@@ -123,23 +115,18 @@ impl Document {
         unit: &str,
         data: impl AsRef<[u8]>,
     ) -> std::io::Result<()> {
-        let (name, offset) = (escape(name), self.appended.len());
-        let head = format!(
-            "        <DataArray type=\"{kind}\" Name=\"{name}\"{shape} \
-             format=\"appended\" offset=\"{offset}\""
-        );
-        self.xml.push_str(&head);
-        if unit.is_empty() {
-            self.line("/>");
-        } else {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                self.xml,
+        let (name, unit, offset) = (escape(name), escape(unit), self.appended.len());
+        let end = match &*unit {
+            "" => "/>".to_string(),
+            unit => format!(
                 ">\n          <InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">\
-                 {}</InformationKey>\n        </DataArray>",
-                escape(unit)
-            );
-        }
+                 {unit}</InformationKey>\n        </DataArray>"
+            ),
+        };
+        self.line(&format!(
+            "        <DataArray type=\"{kind}\" Name=\"{name}\"{shape} \
+             format=\"appended\" offset=\"{offset}\"{end}"
+        ));
         append_compressed(&mut self.appended, data.as_ref())
     }
 }
@@ -180,10 +167,8 @@ mod tests {
             append_compressed(&mut out, &data).unwrap();
             assert!(expanded(&out).unwrap() == data, "{size} bytes");
             let (words, _) = out.as_chunks().0.split_at(3 + size.div_ceil(BLOCK));
-            let words: Vec<usize> = words
-                .iter()
-                .map(|w| u64::from_le_bytes(*w) as usize)
-                .collect();
+            let word = |w: &[u8; 8]| u64::from_le_bytes(*w) as usize;
+            let words: Vec<usize> = words.iter().map(word).collect();
             assert_eq!(words[..3], [words.len() - 3, BLOCK, size % BLOCK]);
             let blocks: usize = words[3..].iter().sum();
             assert_eq!(out.len(), 8 * words.len() + blocks);

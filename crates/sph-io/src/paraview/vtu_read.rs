@@ -23,13 +23,18 @@ const MOST: usize = 1 << 36;
 pub fn read_vtu(path: impl AsRef<Path>) -> Result<(Piece<'static>, f64)> {
     let path = path.as_ref();
     let bytes = fs::read(path).map_err(|e| IoError::read(path, e))?;
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
     let unfit = |problem: &str| {
         let problem = format!("it is not a VTU file of this program: {problem}");
         IoError::Unfit(path.into(), problem)
     };
-    piece(&bytes, name).map_err(unfit)
+    piece(&bytes, piece_name(path)).map_err(unfit)
+}
+
+/// The name of a file without its number.
+pub(crate) fn piece_name(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.rsplit_once('_').map_or(&*stem, |(name, _)| name);
+    name.to_string()
 }
 
 /// An array as the XML declares it, with the bytes that belong to it.
@@ -41,7 +46,7 @@ struct Array {
     bytes: Vec<u8>,
 }
 
-fn piece(file: &[u8], name: &str) -> Parsed<(Piece<'static>, f64)> {
+fn piece(file: &[u8], name: String) -> Parsed<(Piece<'static>, f64)> {
     const MARK: &[u8] = b"<AppendedData encoding=\"raw\">\n_";
     let end = file.windows(MARK.len()).position(|w| w == MARK);
     let end = end.ok_or("its arrays are not appended")?;
@@ -56,9 +61,8 @@ fn piece(file: &[u8], name: &str) -> Parsed<(Piece<'static>, f64)> {
         arrays.map(|node| array(node, appended)).collect()
     };
     let time = section("FieldData")?.pop().ok_or("it has no time")?;
-    let time = *numbers(&time.bytes, f64::from_le_bytes)
-        .first()
-        .ok_or("it has no time")?;
+    let time = numbers(&time.bytes, f64::from_le_bytes);
+    let time = *time.first().ok_or("it has no time")?;
     let points = section("Points")?.pop().ok_or("it has no points")?;
     let points = numbers(&points.bytes, f64::from_le_bytes);
     let (points, _) = points.as_chunks::<3>();
@@ -69,7 +73,7 @@ fn piece(file: &[u8], name: &str) -> Parsed<(Piece<'static>, f64)> {
         }
     }
     let piece = Piece {
-        name: name.to_string().into(),
+        name: name.into(),
         points: points.to_vec().into(),
         cells: cells(&section("Cells")?)?,
         fields,
@@ -101,18 +105,15 @@ pub(crate) fn expanded(data: &[u8]) -> Parsed<Vec<u8>> {
         let bytes = data.get(8 * k..8 * k + 8)?;
         usize::try_from(u64::from_le_bytes(bytes.try_into().ok()?)).ok()
     };
-    let (blocks, block, last) = match (word(0), word(1), word(2)) {
-        (Some(n), Some(block), Some(last)) => (n, block, last),
-        _ => return Err(cut),
-    };
+    let head = |k: usize| word(k).ok_or(cut);
+    let (blocks, block, last) = (head(0)?, head(1)?, head(2)?);
     if blocks > data.len() / 8 || block.saturating_mul(blocks) > MOST || last > block {
         return Err("an array is too large");
     }
     let mut out = Vec::new();
     let mut at = 8 * (3 + blocks);
     for k in 0..blocks {
-        let size = word(3 + k).ok_or(cut)?;
-        let end = at.checked_add(size).ok_or(cut)?;
+        let end = at.checked_add(head(3 + k)?).ok_or(cut)?;
         let whole = k + 1 < blocks || last == 0;
         let length = if whole { block } else { last };
         let before = out.len();

@@ -97,16 +97,16 @@ fn a_failed_replacement_keeps_the_former_content() {
     assert_eq!(Checkpoint::load(&path).unwrap(), checkpoint(1000));
 
     let mut series = PvdSeries::create(tiny.file("fields.pvd")).unwrap();
-    series.write(&frame(0, 10)).unwrap();
+    series.write(&frame(0, 10), 1).unwrap();
     let list = fs::read(tiny.file("fields.pvd")).unwrap();
-    full(series.write(&frame(1, 100_000)));
+    full(series.write(&frame(1, 100_000), 1));
     assert_eq!(fs::read(tiny.file("fields.pvd")).unwrap(), list);
     assert_eq!(series.frames(), 1);
     assert_eq!(names(&tiny.file("fields")), ["fluid_000000.vtu"]);
     // Once there is room again the run can go on. A busy kernel frees the pages of a removed file a moment later.
     let again = (0..100).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(10));
-        series.write(&frame(1, 10)).is_ok()
+        series.write(&frame(1, 10), 1).is_ok()
     });
     assert!(again);
 

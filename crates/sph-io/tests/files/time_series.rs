@@ -51,7 +51,7 @@ fn the_list_is_whole_after_every_output() {
     let path = folder.path().join("fields.pvd");
     let mut series = PvdSeries::create(&path).unwrap();
     for index in 0..4 {
-        let written = series.write(&frame(index)).unwrap();
+        let written = series.write(&frame(index), 1).unwrap();
         assert_eq!(written.len(), 2);
         let files = listed(&path);
         assert_eq!(files.len(), 2 * (index + 1));
@@ -70,21 +70,21 @@ fn a_resumed_series_is_the_uninterrupted_one() {
     let path = folder.path().join("fields.pvd");
     let mut series = PvdSeries::create(&path).unwrap();
     for index in 0..4 {
-        series.write(&frame(index)).unwrap();
+        series.write(&frame(index), 1).unwrap();
     }
     let whole = fs::read(&path).unwrap();
 
     let mut resumed = PvdSeries::open_at(&path, 2).unwrap();
     assert_eq!((resumed.frames(), listed(&path).len()), (2, 4));
     for index in 2..4 {
-        resumed.write(&frame(index)).unwrap();
+        resumed.write(&frame(index), 1).unwrap();
     }
     assert_eq!(fs::read(&path).unwrap(), whole);
 
     let mut resumed = PvdSeries::open_until(&path, 0.1).unwrap();
     assert_eq!(resumed.frames(), 2);
-    assert!(resumed.write(&frame(1)).is_err(), "time must go on");
-    resumed.write(&frame(2)).unwrap();
+    assert!(resumed.write(&frame(1), 1).is_err(), "time must go on");
+    resumed.write(&frame(2), 1).unwrap();
 
     let beyond = PvdSeries::open_at(&path, 9).unwrap_err();
     assert!(matches!(beyond, IoError::TooShort(_, 3, ..)), "{beyond}");
@@ -97,7 +97,7 @@ fn a_foreign_or_cut_list_is_an_error_not_a_loss() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fields.pvd");
     let mut series = PvdSeries::create(&path).unwrap();
-    series.write(&frame(0)).unwrap();
+    series.write(&frame(0), 1).unwrap();
     let whole = fs::read_to_string(&path).unwrap();
     let cuts = (0..whole.trim_end().len()).filter(|&i| whole.is_char_boundary(i));
     for cut in cuts {
@@ -118,14 +118,17 @@ fn frames_that_cannot_be_told_apart_are_refused() {
     let mut series = PvdSeries::create(&path).unwrap();
     let mut twins = frame(0);
     twins.pieces[1].name = "fluid".into();
-    assert!(matches!(series.write(&twins), Err(IoError::Input(..))));
+    assert!(matches!(series.write(&twins, 1), Err(IoError::Input(..))));
     let none = Frame {
         pieces: vec![],
         ..frame(0)
     };
-    assert!(matches!(series.write(&none), Err(IoError::Input(..))));
+    assert!(matches!(series.write(&none, 1), Err(IoError::Input(..))));
     let mut timeless = frame(0);
     timeless.time = f64::NAN;
-    assert!(matches!(series.write(&timeless), Err(IoError::Input(..))));
+    assert!(matches!(
+        series.write(&timeless, 1),
+        Err(IoError::Input(..))
+    ));
     assert!(!path.exists());
 }

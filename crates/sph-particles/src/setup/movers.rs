@@ -42,7 +42,9 @@ pub fn prepare<const D: usize>(
             flush,
         };
         if let Err(refusal) = mover.prepare(&setting) {
-            let path = scene.mover(&wall).map(|c| c.inside(&refusal.key));
+            let path = scene
+                .choice_in("mover", &wall)
+                .map(|c| c.inside(&refusal.key));
             problems.push(SceneProblem::new(path.unwrap_or_default(), refusal.why));
         }
         settled.push((wall, Arc::from(mover)));

@@ -74,7 +74,7 @@ pub fn prepare<const D: usize>(
 
 /// The path of a key of a face's law.
 fn path(scene: &Scene, wall: &str, key: &str) -> String {
-    let choice = scene.open_boundary(wall);
+    let choice = scene.choice_in("open-boundary", wall);
     choice.map_or(format!("wall.{wall}"), |c| c.inside(key))
 }
 

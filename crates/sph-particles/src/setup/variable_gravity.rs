@@ -1,6 +1,6 @@
 //! Changes of gravity: given over time, and by the acceleration of the frame that the scene is drawn in.
 
-use sph_boundary::{Course, RigidMotion};
+use sph_boundary::RigidMotion;
 use sph_core::{Vect, bounds, parse_quantity};
 use sph_scene::{GravityOverTime, Region, Scene};
 use sph_solver::SolverError;
@@ -33,9 +33,10 @@ pub fn from_scene<const D: usize>(
             None => AddedGravity::None,
             Some(given) => match (&given.sine, &given.table) {
                 (Some(sine), _) => {
-                    let course = Course::sine(1.0, sine.period, sine.phase, sine.ramp);
-                    let begin = sine.phase.sin();
-                    let first = if sine.ramp > 0.0 { 0.0 } else { begin };
+                    let swing = &sine.oscillation;
+                    let begin = swing.phase.sin();
+                    let first = if swing.ramp > 0.0 { 0.0 } else { begin };
+                    let course = swing.course(1.0);
                     AddedGravity::Sine(vector(&sine.amplitude), course, first)
                 }
                 (None, Some(rows)) => {

@@ -1,113 +1,112 @@
 //! Vectors, shapes, walls and periodic boxes.
 
-use scene_text::Problems;
-
-use crate::checks::bounds::within_bounds;
-use crate::checks::dimension::Dimension;
+use crate::checks::bodies::{apart, within_bounds};
+use crate::checks::motion;
 use crate::checks::shapes::body_geometry;
-use crate::checks::walls::{check_beds, wall_geometry};
-use crate::checks::zones::{check_zones, outlets};
-use crate::checks::{motion, overlap};
+use crate::checks::table_check::TableCheck;
+use crate::checks::walls::{bed, wall_geometry};
+use crate::checks::zones::{check_zones, outlet};
 use crate::{GravityOverTime, Motion, Scene};
 
 /// Checks everything that has a place in space.
-pub(crate) fn check(scene: &Scene, found: &mut Problems) {
-    let before = found.0.len();
-    let of = Dimension(scene.dimension);
-    space(scene, of, found);
+pub(crate) fn check(scene: &Scene, whole: &mut TableCheck<'_>) {
+    let before = whole.found.0.len();
+    space(scene, whole.below("numerics"));
     for (name, wall) in &scene.wall {
-        wall_geometry(wall, of, &format!("wall.{name}"), found);
+        wall_geometry(wall, whole.below(&format!("wall.{name}")));
     }
     for (name, body) in &scene.body {
-        body_geometry(scene, body, of, &format!("body.{name}"), found);
+        body_geometry(scene, body, whole.below(&format!("body.{name}")));
     }
-    check_beds(&scene.wall, of, found);
-    outlets(scene, of, found);
-    check_zones(scene, of, found);
-    if found.0.len() == before {
+    for (name, wall) in &scene.wall {
+        bed(wall, &scene.wall, whole.below(&format!("wall.{name}")));
+    }
+    for (name, given) in &scene.outlet {
+        outlet(given, whole.below(&format!("outlet.{name}")));
+    }
+    check_zones(scene, whole.below("zone"));
+    if whole.found.0.len() == before {
         match scene.dimension {
-            2 => places::<2>(scene, found),
-            _ => places::<3>(scene, found),
+            2 => places::<2>(scene, whole),
+            _ => places::<3>(scene, whole),
         }
     }
 }
 
-fn places<const D: usize>(scene: &Scene, found: &mut Problems) {
-    within_bounds::<D>(scene, found);
-    if found.0.is_empty() {
-        overlap::check::<D>(scene, found);
+fn places<const D: usize>(scene: &Scene, whole: &mut TableCheck<'_>) {
+    within_bounds::<D>(scene, whole);
+    if whole.found.0.is_empty() {
+        apart::<D>(scene, whole.found);
     }
 }
 
-fn space(scene: &Scene, of: Dimension, found: &mut Problems) {
+fn space(scene: &Scene, mut check: TableCheck<'_>) {
     let numerics = &scene.numerics;
-    of.optional(&numerics.gravity, "numerics.gravity", found);
+    check.vector("gravity", &numerics.gravity);
     if let Some(course) = &numerics.gravity_over_time {
-        over_time(course, of, found);
+        over_time(course, check.below("gravity_over_time"));
     }
     if let Some(motion) = &numerics.frame {
-        check_frame(motion, of, found);
+        check_frame(motion, check.below("frame"));
     }
-    of.optional(&numerics.driving, "numerics.driving", found);
+    check.vector("driving", &numerics.driving);
     if let Some(domain) = &numerics.domain {
-        of.corners(domain, "numerics.domain", found);
+        check.corners("domain", domain);
     }
+    let dimension = check.dimension;
     for (k, (axis, bounds)) in numerics.periodic.axes().into_iter().enumerate() {
         let Some([lo, hi]) = bounds else { continue };
-        let path = format!("numerics.periodic.{axis}");
+        let key = format!("periodic.{axis}");
         let gravity = numerics.gravity.as_ref().and_then(|g| g.get(k));
-        if k >= of.0 {
-            found.add(path, format!("there is no {axis} in {}D", of.0));
+        if k >= dimension {
+            check.add(&key, format!("there is no {axis} in {dimension}D"));
         } else if lo >= hi {
             let message = format!("the lower bound must be below the upper, found {lo} and {hi}");
-            found.add(path, message);
+            check.add(&key, message);
         } else if gravity.is_some_and(|g| *g != 0.0) {
             let message = format!(
                 "gravity along the periodic direction {axis} has no hydrostatic balance: use `driving`"
             );
-            found.add("numerics.gravity", message);
+            check.add("gravity", message);
         }
     }
 }
 
-/// Checks the change of gravity.
-fn over_time(given: &GravityOverTime, of: Dimension, found: &mut Problems) {
-    let path = "numerics.gravity_over_time";
+fn over_time(given: &GravityOverTime, mut check: TableCheck<'_>) {
     let courses = scene_text::given([
         ("sine", given.sine.is_some()),
         ("table", given.table.is_some()),
         ("file", given.file.is_some()),
     ]);
-    found.one_of(&courses, path, "course", ["`sine`, `table` or `file`", ""]);
+    let all = ["`sine`, `table` or `file`", ""];
+    (check.found).one_of(&courses, &check.path, "course", all);
     if let Some(sine) = &given.sine {
-        of.vector(&sine.amplitude, &format!("{path}.sine.amplitude"), found);
+        check.vector("sine.amplitude", &sine.amplitude);
     }
-    if let Some(columns) = given.columns.as_ref().filter(|c| c.len() != of.0 + 1) {
-        let message = format!("expected {} names, found {}", of.0 + 1, columns.len());
-        found.add(format!("{path}.columns"), message);
+    let entries = check.dimension;
+    if let Some(columns) = given.columns.as_ref().filter(|c| c.len() != entries + 1) {
+        let message = format!("expected {} names, found {}", entries + 1, columns.len());
+        check.add("columns", message);
     }
     let rows = given.table.as_deref().unwrap_or_default();
     for (k, row) in rows.iter().enumerate() {
-        let place = format!("{path}.table[{k}]");
-        let (wanted, given) = (of.0, row.len());
-        if given != wanted + 1 {
-            let message = format!("expected a time and {wanted} entries, found {given} numbers");
-            return found.add(place, message);
+        let (key, numbers) = (format!("table[{k}]"), row.len());
+        let message = format!("expected a time and {entries} entries, found {numbers} numbers");
+        if check.refuse(numbers != entries + 1, &key, message) {
+            return;
         }
         let before = k.checked_sub(1).map(|k| rows[k][0]);
         if let Some(before) = before.filter(|t| *t >= row[0]) {
             let message = format!("times must rise, {} s follows {before} s", row[0]);
-            found.add(place, message);
+            check.add(&key, message);
         }
     }
 }
 
 /// Checks the motion of the frame: translations alone.
-fn check_frame(frame: &Motion, of: Dimension, found: &mut Problems) {
-    let path = "numerics.frame";
-    motion::check(frame, of, path, found);
-    if frame.rotate.is_some() || frame.angular_velocity != 0.0 || frame.levels.is_some() {
-        let message = "a frame only translates: `velocity`, `translate`, `start`, `stop`";
-        found.add(path, message);
-    }
+fn check_frame(frame: &Motion, mut check: TableCheck<'_>) {
+    motion::check(frame, check.below(""));
+    let turns = frame.rotate.is_some() || frame.angular_velocity != 0.0;
+    let message = "a frame only translates: `velocity`, `translate`, `start`, `stop`";
+    check.refuse(turns || frame.levels.is_some(), "", message);
 }

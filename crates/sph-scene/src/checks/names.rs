@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use scene_text::{Problems, given};
+use scene_text::Problems;
 use sph_core::suggestion;
 use toml::{Table, Value};
 
+use crate::checks::table_check::TableCheck;
 use crate::{Motion, Norm, Reference, Scene, Source};
 
 /// Kinds of tables with names that the user chooses.
@@ -20,7 +21,6 @@ pub(crate) const NAMED: [&str; 8] = [
     "gauge",
     "reference",
 ];
-/// Longest name.
 const LONGEST: usize = 64;
 
 /// Names go into the names of columns and files, and into dotted paths.
@@ -53,197 +53,167 @@ pub(crate) fn spelling(scene: &Table, found: &mut Problems) {
 }
 
 /// Everything that is named exists; files are where a scene may name them.
-pub(crate) fn references(scene: &mut Scene, source: &Source, found: &mut Problems) {
+pub(crate) fn references(scene: &mut Scene, source: &Source, whole: &mut TableCheck<'_>) {
     let moved = scene.wall.values().any(|wall| !wall.mover.is_empty());
-    if scene.body.is_empty() && !moved {
-        found.add("", "a scene needs a body: [body.NAME]");
-    }
-    if scene.phase.is_empty() {
-        let why = match moved {
-            true => "; walls that move freely meet as if it were in the gap",
-            false => "",
-        };
-        found.add("", format!("a scene needs a phase: [phase.NAME]{why}"));
-    }
+    let bare = scene.body.is_empty() && !moved;
+    whole.refuse(bare, "", "a scene needs a body: [body.NAME]");
+    let why = match moved {
+        true => "; walls that move freely meet as if it were in the gap",
+        false => "",
+    };
+    let message = format!("a scene needs a phase: [phase.NAME]{why}");
+    whole.refuse(scene.phase.is_empty(), "", message);
+    let phases: Vec<&String> = scene.phase.keys().collect();
     for (name, body) in &scene.body {
-        if !scene.phase.contains_key(&body.phase) {
-            let near = suggestion(&body.phase, scene.phase.keys().map(String::as_str));
-            let message = format!("there is no phase called `{}`{near}", body.phase);
-            found.add(format!("body.{name}.phase"), message);
-        }
+        let key = format!("body.{name}.phase");
+        known("phase", &body.phase, &phases, whole.below(&key));
     }
     let probes: Vec<&String> = scene.probe.keys().chain(scene.gauge.keys()).collect();
-    let known = |probe: &str, path: String, found: &mut Problems| {
-        if probes.iter().all(|known| *known != probe) {
-            let near = suggestion(probe, probes.iter().map(|known| known.as_str()));
-            let message = format!("there is no probe or gauge called `{probe}`{near}");
-            found.add(path, message);
-        }
-    };
     for (name, reference) in &mut scene.reference {
-        let path = format!("reference.{name}");
-        reference_keys(reference, &path, found);
+        let mut check = whole.below(&format!("reference.{name}"));
+        reference_keys(reference, &mut check);
         // A probe of several columns is named with the column's suffix, `extent.highest`.
         if let Some(probe) = reference.probe.as_ref().and_then(|p| p.split('.').next()) {
-            known(probe, format!("{path}.probe"), found);
+            known("probe or gauge", probe, &probes, check.below("probe"));
         }
-        reference.path = located(&reference.file, &path, source, found);
+        reference.path = located(&reference.file, source, check);
     }
     for (name, zone) in &scene.zone {
-        if let Some(wall) = zone
-            .follows
-            .as_ref()
-            .filter(|w| !scene.wall.contains_key(*w))
-        {
-            let near = suggestion(wall, scene.wall.keys().map(String::as_str));
-            let message = format!("there is no wall called `{wall}`{near}");
-            found.add(format!("zone.{name}.follows"), message);
+        if let Some(wall) = &zone.follows {
+            let walls: Vec<&String> = scene.wall.keys().collect();
+            known(
+                "wall",
+                wall,
+                &walls,
+                whole.below(&format!("zone.{name}.follows")),
+            );
         }
         for (k, probe) in zone.probes.iter().enumerate() {
-            known(probe, format!("zone.{name}.probes[{k}]"), found);
+            let key = format!("zone.{name}.probes[{k}]");
+            known("probe or gauge", probe, &probes, whole.below(&key));
         }
     }
     for (kind, tables) in [("probe", &scene.probe), ("gauge", &scene.gauge)] {
         for (name, table) in tables {
             let file = table.get("file").and_then(|f| f.as_str()).map(String::from);
-            let path = located(&file, &format!("{kind}.{name}"), source, found);
+            let path = located(&file, source, whole.below(&format!("{kind}.{name}")));
             let path = path.map(|path| (name.clone(), path));
             scene.probe_files.extend(path);
         }
     }
     for (name, wall) in &mut scene.wall {
-        let path = format!("wall.{name}");
-        wall.path = located(&wall.file, &path, source, found);
+        let mut check = whole.below(&format!("wall.{name}"));
         if let Some(motion) = &mut wall.motion {
-            files_of_motion(motion, &format!("{path}.motion"), source, found);
+            files_of_motion(motion, source, check.below("motion"));
         }
+        wall.path = located(&wall.file, source, check);
     }
     if let Some(frame) = &mut scene.numerics.frame {
-        files_of_motion(frame, "numerics.frame", source, found);
+        files_of_motion(frame, source, whole.below("numerics.frame"));
     }
     if let Some(course) = &mut scene.numerics.gravity_over_time {
-        course.path = located(&course.file, "numerics.gravity_over_time", source, found);
+        let check = whole.below("numerics.gravity_over_time");
+        course.path = located(&course.file, source, check);
+    }
+}
+
+fn known(what: &str, name: &str, names: &[&String], mut check: TableCheck<'_>) {
+    if names.iter().all(|known| *known != name) {
+        let near = suggestion(name, names.iter().map(|known| known.as_str()));
+        check.add("", format!("there is no {what} called `{name}`{near}"));
     }
 }
 
 /// Fills in the paths of the files that a motion names.
-fn files_of_motion(motion: &mut Motion, motion_path: &str, source: &Source, found: &mut Problems) {
+fn files_of_motion(motion: &mut Motion, source: &Source, mut check: TableCheck<'_>) {
     for k in 0..motion.translate.len() {
-        let path = motion.translate_path(motion_path, k);
+        let check = check.below(&motion.translate_key(k));
         let rows = &mut motion.translate[k].rows;
-        rows.path = located(&rows.file, &path, source, found);
+        rows.path = located(&rows.file, source, check);
     }
     if let Some(levels) = &mut motion.levels {
-        let path = format!("{motion_path}.levels");
-        levels.path = located(&Some(levels.file.clone()), &path, source, found);
+        let file = Some(levels.file.clone());
+        levels.path = located(&file, source, check.below("levels"));
     }
     if let Some(rotate) = &mut motion.rotate {
-        let path = format!("{motion_path}.rotate");
         let rows = &mut rotate.rows;
-        rows.path = located(&rows.file, &path, source, found);
+        rows.path = located(&rows.file, source, check.below("rotate"));
     }
 }
 
 /// The path of the file that a table names.
-fn located(
-    file: &Option<String>,
-    table: &str,
-    source: &Source,
-    found: &mut Problems,
-) -> Option<PathBuf> {
-    let key = format!("{table}.file");
-    match source.resolve(&key, file.as_ref()?) {
-        Ok(path) => Some(path),
-        Err(why) => {
-            found.add(key, why.to_string());
-            None
-        }
-    }
+fn located(file: &Option<String>, source: &Source, mut check: TableCheck<'_>) -> Option<PathBuf> {
+    let key = format!("{}.file", check.path);
+    let found = source.resolve(&key, file.as_ref()?);
+    found.map_err(|why| check.add("file", why)).ok()
 }
 
-fn reference_keys(reference: &Reference, path: &str, found: &mut Problems) {
+fn reference_keys(reference: &Reference, check: &mut TableCheck<'_>) {
     let one = [reference.probe.is_some(), reference.field.is_some()];
     let neither = "the key `probe` or `field` is missing: what is compared";
     let both = "a reference compares a probe or a field, not both";
-    found.either(one, path, neither, ("field", both));
-    measured(reference, path, found);
+    (check.found).either(one, &check.path, neither, ("field", both));
+    measured(reference, check);
     let one = [reference.file.is_some(), reference.solution.is_some()];
     let neither = "the key `file` or `solution` is missing: what it is compared with";
     let both = "a reference is a file or a solution, not both";
     if one != [false; 2] || !reference.stands_alone() {
-        found.either(one, path, neither, ("solution", both));
+        (check.found).either(one, &check.path, neither, ("solution", both));
     }
-    if reference.solution.is_none() && !reference.parameters.is_empty() {
-        let path = format!("{path}.parameters");
-        found.add(path, "parameters belong to a `solution`");
+    let [file, solution] = one;
+    let needless = !solution && !reference.parameters.is_empty();
+    check.refuse(needless, "parameters", "parameters belong to a `solution`");
+    let (lower, upper) = (reference.lower.is_some(), reference.upper.is_some());
+    for (key, given) in [
+        ("columns", reference.columns.is_some()),
+        ("lower", lower),
+        ("upper", upper),
+    ] {
+        check.refuse(given && !file, key, "columns belong to a `file`");
     }
-    if reference.file.is_none() {
-        for key in given([
-            ("columns", reference.columns.is_some()),
-            ("lower", reference.lower.is_some()),
-            ("upper", reference.upper.is_some()),
-        ]) {
-            found.add(format!("{path}.{key}"), "columns belong to a `file`");
-        }
-    }
-    let limits = reference.lower.is_some() && reference.upper.is_some();
-    if reference.norm() == Norm::Band && !limits {
-        let message = "the norm `band` needs the columns `lower` and `upper`";
-        found.add(format!("{path}.norm"), message);
-    }
+    let unlimited = reference.norm() == Norm::Band && !(lower && upper);
+    let message = "the norm `band` needs the columns `lower` and `upper`";
+    check.refuse(unlimited, "norm", message);
 }
 
 /// The norms that need a number, and the one that needs a field.
-fn measured(reference: &Reference, path: &str, found: &mut Problems) {
+fn measured(reference: &Reference, check: &mut TableCheck<'_>) {
     let norm = reference.norm();
-    let at_norm = format!("{path}.norm");
-    match (norm, reference.value) {
-        (Norm::Mean, None | Some(0.0)) => {
-            found.add(&at_norm, "the norm `mean` needs a `value` other than 0");
-        }
-        (Norm::Mean, _) | (_, None) => {}
-        _ => {
-            let message = "a value is compared by `norm = \"mean\"` only";
-            found.add(format!("{path}.value"), message);
-        }
-    }
-    if matches!(norm, Norm::Period | Norm::Lag) && reference.period.is_none() {
-        let name = norm.name();
-        let message = format!("the norm `{name}` needs the `period` of the reference");
-        found.add(&at_norm, message);
-    }
-    if norm == Norm::DecayRate && reference.solution.is_none() {
-        let message = "the norm `decay-rate` needs a `solution` with a constant rate";
-        found.add(&at_norm, message);
-    }
+    let name = norm.name();
+    let mean = norm == Norm::Mean;
+    let nothing = mean && matches!(reference.value, None | Some(0.0));
+    let message = "the norm `mean` needs a `value` other than 0";
+    check.refuse(nothing, "norm", message);
+    let message = "a value is compared by `norm = \"mean\"` only";
+    check.refuse(!mean && reference.value.is_some(), "value", message);
+    let periodic = matches!(norm, Norm::Period | Norm::Lag) && reference.period.is_none();
+    let message = format!("the norm `{name}` needs the `period` of the reference");
+    check.refuse(periodic, "norm", message);
+    let alone = norm == Norm::DecayRate && reference.solution.is_none();
+    let message = "the norm `decay-rate` needs a `solution` with a constant rate";
+    check.refuse(alone, "norm", message);
     for (key, scale) in [
         ("scale_value", reference.scale_value),
         ("scale_time", reference.scale_time),
     ] {
-        if scale == 0.0 || !scale.is_finite() {
-            let message = format!("a scale is a finite number other than 0, found {scale}");
-            found.add(format!("{path}.{key}"), message);
-        }
+        let message = format!("a scale is a finite number other than 0, found {scale}");
+        check.refuse(scale == 0.0 || !scale.is_finite(), key, message);
     }
-    let about = |what: &str| format!("the norm `{}` is for {what}", norm.name());
+    let about = |what: &str| format!("the norm `{name}` is for {what}");
     match (norm, &reference.field, &reference.probe) {
-        (Norm::L2Mean | Norm::Rms, None, Some(_)) => found.add(&at_norm, about("fields")),
-        (_, Some(_), None) if reference.stands_alone() => found.add(&at_norm, about("probes")),
+        (Norm::L2Mean | Norm::Rms, None, Some(_)) => check.add("norm", about("fields")),
+        (_, Some(_), None) if reference.stands_alone() => check.add("norm", about("probes")),
         _ => {}
     }
-    if reference.stands_alone() {
-        for key in given([
-            ("file", reference.file.is_some()),
-            ("solution", reference.solution.is_some()),
-        ]) {
-            let name = norm.name();
-            let message = format!("the norm `{name}` compares with no file or solution");
-            found.add(format!("{path}.{key}"), message);
-        }
+    for (key, given) in [
+        ("file", reference.file.is_some()),
+        ("solution", reference.solution.is_some()),
+    ] {
+        let message = format!("the norm `{name}` compares with no file or solution");
+        check.refuse(given && reference.stands_alone(), key, message);
     }
 }
 
-/// The named tables of a table.
 pub(crate) fn inside(value: Option<&Value>) -> impl Iterator<Item = (&String, &Value)> {
     value.and_then(Value::as_table).into_iter().flatten()
 }

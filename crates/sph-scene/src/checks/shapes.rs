@@ -1,141 +1,115 @@
 //! Bodies: their shapes, and how they are filled.
 
-use scene_text::Problems;
-
-use crate::checks::dimension::{Dimension, polygon};
-use crate::checks::wave;
+use crate::checks::bodies::keys_of_wave;
+use crate::checks::table_check::TableCheck;
 use crate::tables::body::BodyShape;
 use crate::{Body, Pressure, Scene};
 
-/// Checks the keys of a body in space.
-pub(crate) fn body_geometry(
-    scene: &Scene,
-    body: &Body,
-    of: Dimension,
-    path: &str,
-    found: &mut Problems,
-) {
-    match body.fill {
-        Some(_) => filling(body, of, path, found),
-        None => {
-            shape(&body.shape, of, path, found);
-            if body.seed.is_some() {
-                let message = "a seed belongs to `fill = \"walls\"`";
-                found.add(format!("{path}.seed"), message);
-            }
-        }
+pub(crate) fn body_geometry(scene: &Scene, body: &Body, mut check: TableCheck<'_>) {
+    let filling = body.fill.is_some();
+    if filling {
+        check_filling(body, &mut check);
+    } else {
+        shape(&body.shape, &mut check);
+        let message = "a seed belongs to `fill = \"walls\"`";
+        check.refuse(body.seed.is_some(), "seed", message);
     }
-    let key = if body.fill.is_some() { "fill" } else { "clip" };
-    if body.needs_walls() && scene.wall.is_empty() {
-        let message = "the scene has no walls: a wall is a table [wall.NAME]";
-        found.add(format!("{path}.{key}"), message);
-    }
+    let key = if filling { "fill" } else { "clip" };
+    let unbounded = body.needs_walls() && scene.wall.is_empty();
+    let message = "the scene has no walls: a wall is a table [wall.NAME]";
+    check.refuse(unbounded, key, message);
     for (key, surface) in [("above", &body.above), ("below", &body.below)] {
-        if surface.is_some_and(|s| s.wavelength.is_none() && s.amplitude != 0.0) {
-            let message = "the key `wavelength` is missing: a wave has a length";
-            found.add(format!("{path}.{key}"), message);
-        }
+        let endless = surface.is_some_and(|s| s.wavelength.is_none() && s.amplitude != 0.0);
+        let message = "the key `wavelength` is missing: a wave has a length";
+        check.refuse(endless, key, message);
     }
     for (k, cut) in body.subtract.iter().enumerate() {
-        shape(cut, of, &format!("{path}.subtract[{k}]"), found);
+        shape(cut, &mut check.below(&format!("subtract[{k}]")));
     }
-    of.optional(&body.velocity, &format!("{path}.velocity"), found);
-    if body.velocity.is_some() && !body.initial.is_empty() {
-        let message =
-            "the velocity at the start is given here and by an `initial` plugin: choose one";
-        found.add(format!("{path}.velocity"), message);
-    }
-    wave::keys(scene, body, path, found);
+    check.vector("velocity", &body.velocity);
+    let twice = body.velocity.is_some() && !body.initial.is_empty();
+    let message = "the velocity at the start is given here and by an `initial` plugin: choose one";
+    check.refuse(twice, "velocity", message);
+    keys_of_wave(scene, body, check.below("wave"));
     let weightless = scene.numerics.gravity.iter().flatten().all(|g| *g == 0.0);
-    if body.pressure == Pressure::Hydrostatic && weightless {
-        let message = "a hydrostatic pressure needs `numerics.gravity`";
-        found.add(format!("{path}.pressure"), message);
-    } else if body.pressure == Pressure::Zero && body.surface.is_some() {
-        let message = "the level of the surface is used for `pressure = \"hydrostatic\"` only";
-        found.add(format!("{path}.surface"), message);
-    }
+    let hydrostatic = body.pressure == Pressure::Hydrostatic;
+    let message = "a hydrostatic pressure needs `numerics.gravity`";
+    check.refuse(hydrostatic && weightless, "pressure", message);
+    let message = "the level of the surface is used for `pressure = \"hydrostatic\"` only";
+    check.refuse(!hydrostatic && body.surface.is_some(), "surface", message);
 }
 
 /// A body that fills the walls has no shape but a box that bounds it.
-fn filling(body: &Body, of: Dimension, path: &str, found: &mut Problems) {
+fn check_filling(body: &Body, check: &mut TableCheck<'_>) {
     for key in body.shape.given().into_iter().filter(|key| *key != "box") {
         let message = "what `fill = \"walls\"` fills can be bounded by a `box` only";
-        found.add(format!("{path}.{key}"), message);
+        check.add(key, message);
     }
     if let Some(corners) = &body.shape.bounds {
-        of.corners(corners, &format!("{path}.box"), found);
+        check.corners("box", corners);
     }
-    let Some(seed) = &body.seed else { return };
-    let place = format!("{path}.seed");
-    let within = |[lo, hi]: &[Vec<f64>; 2], k: usize| {
-        let ends = lo.get(k).zip(hi.get(k));
-        ends.is_some_and(|(l, h)| (l..=h).contains(&&seed[k]))
-    };
-    if of.vector(seed, &place, found)
-        && let Some(bounds) = &body.shape.bounds
-        && (0..of.0).any(|k| !within(bounds, k))
+    if check.vector("seed", &body.seed)
+        && let (Some(seed), Some([lo, hi])) = (&body.seed, &body.shape.bounds)
     {
-        found.add(place, "the seed lies outside the `box`");
+        let mut ends = lo.iter().zip(hi).zip(seed);
+        let outside = lo.len().min(hi.len()) < seed.len()
+            || ends.any(|((lo, hi), x)| !(lo..=hi).contains(&x));
+        check.refuse(outside, "seed", "the seed lies outside the `box`");
     }
 }
 
 /// Checks that one shape is given, and its keys.
-pub(crate) fn shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
-    let all = match of.0 {
+pub(crate) fn shape(keys: &BodyShape, check: &mut TableCheck<'_>) {
+    let all = match check.dimension {
         2 => "`box`, `polygon`, `disc` or `ellipse`",
         _ => "`box`, `sphere`, `cylinder`, `cone` or `extrusion`",
     };
-    if found.one_of(&keys.given(), path, "shape", [all, ""]) {
-        keys_of_shape(keys, of, path, found);
+    if (check.found).one_of(&keys.given(), &check.path, "shape", [all, ""]) {
+        keys_of_shape(keys, check);
     }
 }
 
-/// Checks the keys of a shape.
-pub(crate) fn keys_of_shape(keys: &BodyShape, of: Dimension, path: &str, found: &mut Problems) {
-    let at = |key: &str| format!("{path}.{key}");
+pub(crate) fn keys_of_shape(keys: &BodyShape, check: &mut TableCheck<'_>) {
     if let Some(corners) = &keys.bounds {
-        of.corners(corners, &at("box"), found);
+        check.corners("box", corners);
     }
     for (round, key, what, dimension) in [
         (&keys.disc, "disc", "a disc", 2),
         (&keys.sphere, "sphere", "a sphere", 3),
     ] {
-        let Some(round) = round else { continue };
-        if of.is(dimension, what, &at(key), found) {
-            of.vector(&round.centre, &at(&format!("{key}.centre")), found);
+        if let Some(round) = round
+            && let Some(mut check) = check.shape(key, what, dimension)
+        {
+            check.vector("centre", &round.centre);
         }
     }
     if let Some(ellipse) = &keys.ellipse
-        && of.is(2, "an ellipse", &at("ellipse"), found)
+        && let Some(mut check) = check.shape("ellipse", "an ellipse", 2)
     {
-        of.vector(&ellipse.centre, &at("ellipse.centre"), found);
-        if ellipse.semi_axes.contains(&0.0) {
-            let message = "the semi-axes must be more than 0 m";
-            found.add(at("ellipse.semi_axes"), message);
-        }
+        check.vector("centre", &ellipse.centre);
+        let flat = ellipse.semi_axes.contains(&0.0);
+        check.refuse(flat, "semi_axes", "the semi-axes must be more than 0 m");
     }
     if let Some(points) = &keys.polygon
-        && of.is(2, "a polygon", &at("polygon"), found)
+        && let Some(mut check) = check.shape("polygon", "a polygon", 2)
     {
-        polygon(points, &at("polygon"), found);
+        check.polygon("", points);
     }
     if let Some(c) = &keys.cylinder
-        && of.is(3, "a cylinder", &at("cylinder"), found)
+        && let Some(mut check) = check.shape("cylinder", "a cylinder", 3)
     {
-        of.apart(("from", &c.from), ("to", &c.to), &at("cylinder"), found);
+        check.apart(("from", &c.from), ("to", &c.to));
     }
     if let Some(c) = &keys.cone
-        && of.is(3, "a cone", &at("cone"), found)
+        && let Some(mut check) = check.shape("cone", "a cone", 3)
     {
-        of.apart(("base", &c.base), ("apex", &c.apex), &at("cone"), found);
+        check.apart(("base", &c.base), ("apex", &c.apex));
     }
     if let Some(e) = &keys.extrusion
-        && of.is(3, "an extrusion", &at("extrusion"), found)
+        && let Some(mut check) = check.shape("extrusion", "an extrusion", 3)
     {
-        polygon(&e.polygon, &at("extrusion.polygon"), found);
-        if e.from == e.to {
-            let message = format!("`from` and `to` must differ, found {} twice", e.from);
-            found.add(at("extrusion.to"), message);
-        }
+        check.polygon("polygon", &e.polygon);
+        let message = format!("`from` and `to` must differ, found {} twice", e.from);
+        check.refuse(e.from == e.to, "to", message);
     }
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::Line;
-use crate::drawings::heading::Form;
-use crate::drawings::{rows, svg};
+use crate::drawings::rows::{self, Form};
+use crate::drawings::svg;
 
 /// Format of a file, by its ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,20 +32,31 @@ impl Format {
         let found = ENDINGS.iter().find(|(e, _)| e.eq_ignore_ascii_case(ending));
         found.map(|(_, format)| *format)
     }
-
-    /// Dimension of its walls.
-    pub fn dimension(self) -> usize {
-        match self {
-            Format::Svg | Format::Table => 2,
-            Format::Stl => 3,
-        }
-    }
 }
 
 /// The lines of a file, with curves within `tolerance`; any but a drawing is taken for a table of the form.
 pub(crate) fn lines(path: &Path, tolerance: f64, form: &Form) -> Result<Vec<Line>, String> {
+    let (text, name) = (rows::text(path)?, path.display().to_string());
     match Format::from_name(&path.to_string_lossy()) {
-        Some(Format::Svg) => svg::read(path, tolerance),
-        _ => rows::lines(&rows::text(path)?, &path.display().to_string(), form),
+        Some(Format::Svg) => svg::parse(&text, &name, tolerance),
+        _ => rows::lines(&text, &name, form),
+    }
+}
+
+impl Line {
+    /// The lines of an SVG drawing in user units, curves within `tolerance` user units.
+    ///
+    /// # Errors
+    /// If it is no drawing, holds no lines, or is too large for the tolerance: the given name, the place, the fault there.
+    pub fn from_svg(text: &str, name: &str, tolerance: f64) -> Result<Vec<Self>, String> {
+        svg::parse(text, name, tolerance)
+    }
+
+    /// The lines of a table of two columns, one for every block of rows.
+    ///
+    /// # Errors
+    /// If a row is not two finite numbers, or a line has one corner only: the given name, the place, the fault there.
+    pub fn from_csv(text: &str, name: &str) -> Result<Vec<Self>, String> {
+        rows::lines(text, name, &Form::places(&None, None))
     }
 }

@@ -1,33 +1,24 @@
 //! Lines from SVG drawings.
 
-use std::path::Path;
-
-use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Point, RoundedRect, Shape};
+use kurbo::{
+    Affine, Arc, BezPath, Circle, Ellipse, PathEl, Point, RoundedRect, Shape, SvgArc, Vec2,
+};
 use roxmltree::{Document, Node, ParsingOptions};
-use svgtypes::{Length, LengthUnit, PointsParser, Transform, ViewBox};
+use svgtypes::{Length, LengthUnit, PathParser, PathSegment, PointsParser, Transform, ViewBox};
 
-use crate::drawings::rows::text;
-use crate::drawings::svg_path;
 use crate::geometry::outlines::Line;
 
 /// Most elements, texts and comments of a drawing.
 const NODES: u32 = 2_000_000;
-/// Most corners of all lines.
 const CORNERS: usize = 1_000_000;
 /// Largest coordinate, in tolerances.
 const LARGEST: f64 = 1e9;
 /// Shares of the tolerance that arcs lose to cubics and cubics to straight edges.
 const SHARES: [f64; 2] = [0.1, 0.8];
 
-/// Lines of a drawing, upright, in user units; curves within `tolerance` user units.
+/// Lines of the text of a drawing called `name`, upright, in user units; curves within `tolerance` user units.
 ///
-/// The origin is the lower left corner of the `viewBox`, else of the width and height, else the
-/// upper left corner.
-pub(crate) fn read(path: &Path, tolerance: f64) -> Result<Vec<Line>, String> {
-    parse(&text(path)?, &path.display().to_string(), tolerance)
-}
-
-/// The same from the text of a file called `name`.
+/// The origin is the lower left corner of the `viewBox`, else of the width and height, else the upper left corner.
 pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>, String> {
     let told = |why: String| format!("`{name}`: {why}");
     let options = ParsingOptions {
@@ -76,10 +67,8 @@ pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>,
             }
         }
     }
-    match lines.found.is_empty() {
-        true => Err(told("it holds no lines".to_string())),
-        false => Ok(lines.found),
-    }
+    let found = Some(lines.found).filter(|found| !found.is_empty());
+    found.ok_or_else(|| told("it holds no lines".to_string()))
 }
 
 /// Children in such an order that they are taken from the end as they are drawn.
@@ -154,7 +143,7 @@ fn drawn(node: &Node<'_, '_>, tolerance: f64) -> Result<Option<BezPath>, String>
     Ok(match node.tag_name().name() {
         "path" => {
             let data = node.attribute("d").unwrap_or("");
-            Some(svg_path::parse(data, tolerance, limit)?)
+            Some(path(data, tolerance, limit)?)
         }
         name @ ("polygon" | "polyline") => {
             let mut path = BezPath::new();
@@ -171,10 +160,9 @@ fn drawn(node: &Node<'_, '_>, tolerance: f64) -> Result<Option<BezPath>, String>
             Some(path)
         }
         "line" => {
-            let mut path = BezPath::new();
-            path.move_to((number("x1")?, number("y1")?));
-            path.line_to((number("x2")?, number("y2")?));
-            Some(path)
+            let from = (number("x1")?, number("y1")?);
+            let to = (number("x2")?, number("y2")?);
+            Some(kurbo::Line::new(from, to).to_path(tolerance))
         }
         "rect" => {
             let corner = [number("x")?, number("y")?];
@@ -231,9 +219,7 @@ impl Lines {
         let mut end = |line: &mut Vec<[f64; 2]>, closed: bool| {
             let points = std::mem::take(line);
             let tidy = Line { points, closed }.tidied(near);
-            if tidy.points.len() > 1 {
-                found.push(tidy);
-            }
+            found.extend((tidy.points.len() > 1).then_some(tidy));
         };
         let at = |p: Point| [p.x, p.y];
         let mut pen = Point::ZERO;
@@ -259,9 +245,121 @@ impl Lines {
         }
         end(&mut line, false);
         let why = format!("the drawing has more than {CORNERS} corners at this spacing");
-        match self.corners > CORNERS {
-            true => Err(why),
-            false => Ok(()),
+        (self.corners <= CORNERS).then_some(()).ok_or(why)
+    }
+}
+
+/// The path of the data `M 0 0 L 1 0 A …`, its arcs as cubics within `tolerance`, unless a number is larger than `limit`.
+fn path(data: &str, tolerance: f64, limit: f64) -> Result<BezPath, String> {
+    let mut pen = Pen {
+        path: BezPath::new(),
+        at: Point::ZERO,
+        start: Point::ZERO,
+        handles: [Point::ZERO; 2],
+        down: false,
+    };
+    for segment in PathParser::from(data) {
+        let segment = segment.map_err(|e| format!("d: {e}"))?;
+        pen.draw(segment, tolerance, limit)?;
+    }
+    Ok(pen.path)
+}
+
+struct Pen {
+    path: BezPath,
+    at: Point,
+    start: Point,
+    /// Last control points of a cubic and of a quadratic curve, which smooth ones mirror; the pen's place after others.
+    handles: [Point; 2],
+    /// True if a line has been begun.
+    down: bool,
+}
+
+impl Pen {
+    fn draw(&mut self, segment: PathSegment, tolerance: f64, limit: f64) -> Result<(), String> {
+        let from = self.at;
+        let base = if segment.is_abs() { Point::ZERO } else { from };
+        let place = |x: f64, y: f64| match x.abs().max(y.abs()) <= limit {
+            true => Ok(Point::new(base.x + x, base.y + y)),
+            false => Err(format!("d: ({x}, {y}) is out of range for this spacing")),
+        };
+        let [cubic, quadratic] = self.handles.map(|last| from + (from - last));
+        if !matches!(segment, PathSegment::MoveTo { .. }) && !self.down {
+            self.push(PathEl::MoveTo(from));
         }
+        let drawn = match segment {
+            PathSegment::MoveTo { x, y, .. } => PathEl::MoveTo(place(x, y)?),
+            PathSegment::LineTo { x, y, .. } => PathEl::LineTo(place(x, y)?),
+            PathSegment::HorizontalLineTo { x, .. } => {
+                PathEl::LineTo(Point::new(place(x, 0.0)?.x, from.y))
+            }
+            PathSegment::VerticalLineTo { y, .. } => {
+                PathEl::LineTo(Point::new(from.x, place(0.0, y)?.y))
+            }
+            PathSegment::CurveTo {
+                x1,
+                y1,
+                x2,
+                y2,
+                x,
+                y,
+                ..
+            } => PathEl::CurveTo(place(x1, y1)?, place(x2, y2)?, place(x, y)?),
+            PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
+                PathEl::CurveTo(cubic, place(x2, y2)?, place(x, y)?)
+            }
+            PathSegment::Quadratic { x1, y1, x, y, .. } => {
+                PathEl::QuadTo(place(x1, y1)?, place(x, y)?)
+            }
+            PathSegment::SmoothQuadratic { x, y, .. } => PathEl::QuadTo(quadratic, place(x, y)?),
+            PathSegment::EllipticalArc {
+                rx,
+                ry,
+                x_axis_rotation,
+                large_arc,
+                sweep,
+                x,
+                y,
+                ..
+            } => {
+                place(rx, ry)?;
+                let to = place(x, y)?;
+                let arc = SvgArc {
+                    from,
+                    to,
+                    radii: Vec2::new(rx, ry),
+                    x_rotation: x_axis_rotation.to_radians(),
+                    large_arc,
+                    sweep,
+                };
+                // Between ends that are one place an arc has no centre.
+                let apart = (to - from).hypot() > 1e-9 * tolerance;
+                if let Some(arc) = Some(&arc).filter(|_| apart).and_then(Arc::from_svg_arc) {
+                    let path = &mut self.path;
+                    arc.to_cubic_beziers(tolerance, |a, b, c| path.curve_to(a, b, c));
+                    (self.at, self.handles) = (to, [to; 2]);
+                    return Ok(());
+                }
+                PathEl::LineTo(to)
+            }
+            PathSegment::ClosePath { .. } => PathEl::ClosePath,
+        };
+        self.push(drawn);
+        Ok(())
+    }
+
+    fn push(&mut self, drawn: PathEl) {
+        if let PathEl::MoveTo(start) = drawn {
+            self.start = start;
+        }
+        self.path.push(drawn);
+        self.down = drawn != PathEl::ClosePath;
+        let at = drawn.end_point().unwrap_or(self.start);
+        self.handles = match drawn {
+            PathEl::CurveTo(_, second, _) => [second, at],
+            PathEl::QuadTo(control, _) => [at, control],
+            _ => [at; 2],
+        };
+        self.at = at;
     }
 }

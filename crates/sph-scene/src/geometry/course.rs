@@ -1,13 +1,10 @@
 //! Courses over time from the motion of a wall.
 
-use std::path::Path;
-
 use scene_text::given;
 use sph_core::course::{self, Course, Translation};
 use sph_core::{SceneProblem, unit_factor};
 
-use crate::drawings::heading::Form;
-use crate::drawings::rows::{self, Row};
+use crate::drawings::rows::{self, Form, Row};
 use crate::geometry::vector::{array, unit, unit_axis};
 use crate::reading::limits::TIMES;
 use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};
@@ -43,26 +40,27 @@ impl Motion {
         }
         for (k, translate) in self.translate.iter().enumerate() {
             let along = array(&unit(&translate.along).unwrap_or_default());
-            let course = translate.given().course(&self.translate_path(place, k))?;
+            let course = translate
+                .given()
+                .course(&format!("{place}.{}", self.translate_key(k)))?;
             translations.push(Translation { along, course });
         }
-        let turning = |centre: Option<&[f64]>, axis: &Option<Vec<f64>>, course| course::Rotation {
-            centre: array(centre.unwrap_or_default()),
+        let speed = self.angular_velocity;
+        let (centre, axis, course) = match &self.rotate {
+            Some(rotate) => {
+                let course = rotate.given().course(&format!("{place}.rotate"))?;
+                (Some(&rotate.centre), &rotate.axis, Some(course))
+            }
+            None => {
+                let course = (speed != 0.0).then_some(Course::Steady { speed });
+                (self.centre.as_ref(), &self.axis, course)
+            }
+        };
+        let rotation = course.map(|course| course::Rotation {
+            centre: array(centre.map_or(&[], |centre| centre)),
             axis: unit_axis(axis),
             course,
-        };
-        let speed = self.angular_velocity;
-        let rotation = match &self.rotate {
-            Some(given) => {
-                let course = given.given().course(&format!("{place}.rotate"))?;
-                Some(turning(Some(&given.centre), &given.axis, course))
-            }
-            None if speed != 0.0 => {
-                let course = Course::Steady { speed };
-                Some(turning(self.centre.as_deref(), &self.axis, course))
-            }
-            None => None,
-        };
+        });
         Ok(Courses {
             translations,
             rotation,
@@ -74,60 +72,64 @@ impl Motion {
 
 /// Course of a translation or a rotation, by its keys.
 pub(crate) struct ImposedCourse<'a> {
-    speed: Option<f64>,
-    /// Speed and the time in which it is reached.
-    ramp: Option<[f64; 2]>,
-    /// Amplitude, period, phase, ramp.
-    sine: Option<[f64; 4]>,
+    /// The keys of courses that are given.
+    pub keys: Vec<&'static str>,
+    /// That without rows.
+    course: Option<Course>,
     pub rows: &'a CourseRows,
     unit: &'static str,
 }
 
 impl Translate {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
-        ImposedCourse {
-            speed: self.speed,
-            ramp: self.ramp.map(|r| [r.speed, r.over]),
-            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
-            rows: &self.rows,
-            unit: "m",
-        }
+        let ramp = self.ramp.map(|r| (r.speed, r.over));
+        let sine = self
+            .sine
+            .as_ref()
+            .map(|s| s.oscillation.course(s.amplitude));
+        ImposedCourse::new(self.speed, ramp, sine, &self.rows, "m")
     }
 }
 
 impl Rotation {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
-        ImposedCourse {
-            speed: self.speed,
-            ramp: self.ramp.map(|r| [r.speed, r.over]),
-            sine: self.sine.map(|s| [s.amplitude, s.period, s.phase, s.ramp]),
-            rows: &self.rows,
-            unit: "rad",
-        }
+        let ramp = self.ramp.map(|r| (r.speed, r.over));
+        let sine = self
+            .sine
+            .as_ref()
+            .map(|s| s.oscillation.course(s.amplitude));
+        ImposedCourse::new(self.speed, ramp, sine, &self.rows, "rad")
     }
 }
 
-impl ImposedCourse<'_> {
-    /// The keys of courses that are given.
-    pub fn keys(&self) -> Vec<&'static str> {
-        given([
-            ("speed", self.speed.is_some()),
-            ("ramp", self.ramp.is_some()),
-            ("sine", self.sine.is_some()),
-            ("table", self.rows.table.is_some()),
-            ("file", self.rows.file.is_some()),
-        ])
+impl<'a> ImposedCourse<'a> {
+    fn new(
+        speed: Option<f64>,
+        ramp: Option<(f64, f64)>,
+        sine: Option<Course>,
+        rows: &'a CourseRows,
+        unit: &'static str,
+    ) -> Self {
+        let keys = given([
+            ("speed", speed.is_some()),
+            ("ramp", ramp.is_some()),
+            ("sine", sine.is_some()),
+            ("table", rows.table.is_some()),
+            ("file", rows.file.is_some()),
+        ]);
+        let steady = speed.map(|speed| Course::Steady { speed });
+        let ramp = ramp.map(|(speed, over)| Course::Ramp { speed, over });
+        ImposedCourse {
+            keys,
+            course: steady.or(ramp).or(sine),
+            rows,
+            unit,
+        }
     }
 
     fn course(&self, place: &str) -> Result<Course, SceneProblem> {
-        if let Some(speed) = self.speed {
-            return Ok(Course::Steady { speed });
-        }
-        if let Some([speed, over]) = self.ramp {
-            return Ok(Course::Ramp { speed, over });
-        }
-        if let Some([amplitude, period, phase, ramp]) = self.sine {
-            return Ok(Course::sine(amplitude, period, phase, ramp));
+        if let Some(course) = &self.course {
+            return Ok(course.clone());
         }
         let rows = match &self.rows.table {
             Some(table) => table.as_slice().into(),
@@ -140,10 +142,7 @@ impl ImposedCourse<'_> {
         Ok(Course::Table { rows })
     }
 
-    /// Keys of the scene for the columns of the file.
-    ///
-    /// # Errors
-    /// The key that is wrong, and why.
+    /// Keys of the scene for the columns of the file; or the key that is wrong, and why.
     pub fn form(&self) -> Result<Form, (&'static str, String)> {
         let factor = |given: &Option<String>, alike| {
             let given = given.as_deref();
@@ -158,34 +157,29 @@ impl ImposedCourse<'_> {
         })
     }
 
-    /// The rows of the file.
+    /// The rows of the file, whose times rise.
     fn rows(&self) -> Result<Vec<Row>, String> {
         let path = self.rows.path.as_deref();
         let path = path.ok_or_else(|| "the course is missing".to_string())?;
         let form = self.form().map_err(|(_, why)| why)?;
-        course_rows(path, &form)
-    }
-}
-
-/// The rows of a file that is a course.
-fn course_rows(path: &Path, form: &Form) -> Result<Vec<Row>, String> {
-    let blocks = rows::read(path, form)?;
-    let rows: Vec<Row> = blocks.into_iter().flatten().collect();
-    let (name, count) = (path.display(), rows.len());
-    if count > TIMES {
-        return Err(format!("`{name}` holds {count} rows, more than {TIMES}"));
-    }
-    if count < 2 {
-        return Err(format!(
-            "`{name}` holds {count} rows, and a course needs at least 2"
-        ));
-    }
-    match rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
-        None => Ok(rows),
-        Some(pair) => Err(format!(
-            "`{name}`, line {}: times must rise, {} s follows {} s",
-            pair[1].line, pair[1].values[0], pair[0].values[0]
-        )),
+        let blocks = rows::read(path, &form)?;
+        let rows: Vec<Row> = blocks.into_iter().flatten().collect();
+        let (name, count) = (path.display(), rows.len());
+        if count > TIMES {
+            return Err(format!("`{name}` holds {count} rows, more than {TIMES}"));
+        }
+        if count < 2 {
+            return Err(format!(
+                "`{name}` holds {count} rows, and a course needs at least 2"
+            ));
+        }
+        match rows.windows(2).find(|p| p[0].values[0] >= p[1].values[0]) {
+            None => Ok(rows),
+            Some(pair) => Err(format!(
+                "`{name}`, line {}: times must rise, {} s follows {} s",
+                pair[1].line, pair[1].values[0], pair[0].values[0]
+            )),
+        }
     }
 }
 
@@ -196,7 +190,7 @@ impl Motion {
         let mut translations = self.translate.iter().enumerate();
         let told = |rows: &CourseRows| rows.path.is_some() || rows.table.is_some();
         let (key, given) = match (translations.find(|(_, t)| told(&t.rows)), &self.rotate) {
-            (Some((k, t)), _) => (self.translate_path(place, k), t.given()),
+            (Some((k, t)), _) => (format!("{place}.{}", self.translate_key(k)), t.given()),
             (None, Some(r)) => (format!("{place}.rotate"), r.given()),
             (None, None) => return None,
         };

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use sph_core::{BoxTree, bounds};
 
 use crate::geometry::polygon::crosses_ray;
-use crate::tables::wall_shapes::Face;
+use crate::tables::wall::Face;
 use crate::{FluidSide, Polygon};
 
 /// A line of straight edges with the fluid on the left of travel.
@@ -19,10 +19,8 @@ pub struct Line {
 
 impl Line {
     pub(crate) fn closed(points: Vec<[f64; 2]>) -> Self {
-        Line {
-            points,
-            closed: true,
-        }
+        let closed = true;
+        Line { points, closed }
     }
 
     /// The same line with the fluid on the other side.
@@ -57,21 +55,11 @@ pub(crate) fn rectangle(lo: [f64; 2], hi: [f64; 2], open: &[Face]) -> Vec<Line> 
     let line = |begin: usize| {
         let count = (begin..begin + 4).take_while(|&k| kept(k)).count();
         let corner = |k: usize| corners[k % 4];
-        Line {
-            points: (begin..=begin + count).map(corner).collect(),
-            closed: false,
-        }
+        let points = (begin..=begin + count).map(corner).collect();
+        let closed = false;
+        Line { points, closed }
     };
     begins.map(line).collect()
-}
-
-/// Errors of turning closed lines.
-#[derive(Debug, PartialEq)]
-pub(crate) enum SideError {
-    /// The line of a number is open.
-    Open(usize),
-    /// Too many edges lie beside too many lines.
-    Tangled,
 }
 
 /// Most edges, of all lines together, that are passed on the way out from a corner of each.
@@ -81,20 +69,23 @@ const PASSED: usize = 200_000_000;
 ///
 /// A line within another is the edge of a hole: it goes round the other way. Whether it lies within an odd
 /// number of others shows in the number of edges that a ray from one of its corners to the right passes.
-pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, SideError> {
+/// Or why they cannot be turned, and whether that is the number of edges.
+pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, (bool, String)> {
     if side == FluidSide::AsDrawn {
         return Ok(lines);
     }
     if let Some(open) = lines.iter().position(|l| !l.closed) {
-        return Err(SideError::Open(open));
+        let message = format!(
+            "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
+             it, or leave out `fluid` and draw it with the fluid on the left of travel"
+        );
+        return Err((false, message));
     }
     let polygons = lines.iter().map(|l| Polygon::new(l.points.clone()));
     let polygons: Vec<Polygon> = polygons.collect();
-    let of = |(k, polygon): (usize, &Polygon)| {
-        let edges = polygon.edges().map(|(a, b)| (k, a, b));
-        edges.collect::<Vec<_>>()
-    };
-    let edges: Vec<_> = polygons.iter().enumerate().flat_map(of).collect();
+    let numbered = polygons.iter().enumerate();
+    let edges = numbered.flat_map(|(k, polygon)| polygon.edges().map(move |(a, b)| (k, a, b)));
+    let edges: Vec<_> = edges.collect();
     let boxes = edges.iter().map(|(_, a, b)| bounds([*a, *b])).collect();
     let tree = BoxTree::new(boxes);
     let mut passed = 0;
@@ -113,14 +104,14 @@ pub(crate) fn oriented(lines: Vec<Line>, side: FluidSide) -> Result<Vec<Line>, S
             }
         });
         if whole.is_break() {
-            return Err(SideError::Tangled);
+            let message = "its lines have too many edges beside each other to find which is within which: leave \
+                           out `fluid` and draw them with the fluid on the left of travel";
+            return Err((true, message.to_string()));
         }
         let anticlockwise = polygons[k].area() > 0.0;
         let wanted = (side == FluidSide::Inside) == within.is_multiple_of(2);
-        turned.push(match anticlockwise == wanted {
-            true => line,
-            false => line.reversed(),
-        });
+        let right = anticlockwise == wanted;
+        turned.push(if right { line } else { line.reversed() });
     }
     Ok(turned)
 }

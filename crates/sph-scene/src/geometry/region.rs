@@ -15,22 +15,17 @@ pub struct Region<const D: usize> {
 impl<const D: usize> Region<D> {
     /// A shape from which nothing is cut out.
     pub fn whole(base: Shape<D>) -> Self {
-        Region {
-            base,
-            cuts: Vec::new(),
-        }
+        let cuts = Vec::new();
+        Region { base, cuts }
     }
 
     /// The region of a body, if the body gives a shape or bounds its filling by a box.
     pub fn from_body(body: &Body) -> Option<Self> {
-        Some(Region {
-            base: body.shape.shape()?,
-            cuts: cuts(body),
-        })
+        let (base, cuts) = (body.shape.shape()?, cuts(body));
+        Some(Region { base, cuts })
     }
 
-    /// The region of a body that fills the walls within these bounds, m; or the key that is
-    /// wrong and why.
+    /// The region of a body that fills the walls within these bounds, m; or the key that is wrong and why.
     pub(crate) fn enclosed(
         body: &Body,
         bounds: Option<([f64; D], [f64; D])>,
@@ -45,10 +40,8 @@ impl<const D: usize> Region<D> {
         if (0..D).any(|k| lo[k] >= hi[k]) {
             return Err(("box", "the box has nothing in common with the walls"));
         }
-        Ok(Region {
-            base: Shape::Cuboid { lo, hi },
-            cuts: cuts(body),
-        })
+        let (base, cuts) = (Shape::Cuboid { lo, hi }, cuts(body));
+        Ok(Region { base, cuts })
     }
 
     /// Lower and upper corner of a box around it, m: that of the base, less the part beyond a level surface or a wave.
@@ -95,16 +88,12 @@ mod tests {
 
     #[test]
     fn a_cut_takes_away_and_bounds_what_is_left() {
-        let region = Region {
-            base: Shape::Cuboid {
-                lo: [0.0; 2],
-                hi: [4.0; 2],
-            },
-            cuts: vec![Shape::Ball {
-                centre: [2.0; 2],
-                radius: 1.0,
-            }],
-        };
+        let (lo, hi, centre, radius) = ([0.0; 2], [4.0; 2], [2.0; 2], 1.0);
+        let (base, cuts) = (
+            Shape::Cuboid { lo, hi },
+            vec![Shape::Ball { centre, radius }],
+        );
+        let region = Region { base, cuts };
         assert_eq!(region.depth(&[2.0, 2.0]), -1.0);
         assert_eq!(region.depth(&[2.0, 3.25]), 0.25);
         assert_eq!(region.depth(&[2.0, 3.75]), 0.25);
@@ -118,22 +107,13 @@ mod tests {
             wavelength: Some(1.0),
             phase: 0.0,
         };
-        let region = Region::<2> {
-            base: Shape::Cuboid {
-                lo: [0.0; 2],
-                hi: [1.0, 4.0],
-            },
-            cuts: vec![
-                Shape::Side {
-                    surface: surface(1.0, 0.0),
-                    above: false,
-                },
-                Shape::Side {
-                    surface: surface(3.0, 0.1),
-                    above: true,
-                },
-            ],
-        };
+        let side = |surface: LevelSurface, above: bool| Shape::Side { surface, above };
+        let (lo, hi) = ([0.0; 2], [1.0, 4.0]);
+        let base = Shape::Cuboid { lo, hi };
+        let cuts = [(1.0, 0.0, false), (3.0, 0.1, true)];
+        let cuts = cuts.map(|(level, amplitude, above)| side(surface(level, amplitude), above));
+        let cuts = cuts.to_vec();
+        let region = Region::<2> { base, cuts };
         assert_eq!(region.bounds(), ([0.0, 1.0], [1.0, 3.1]));
         assert_eq!(region.depth(&[0.5, 1.25]), 0.25);
         assert_eq!(region.depth(&[0.5, 0.5]), -0.5);

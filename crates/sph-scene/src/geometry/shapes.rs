@@ -1,6 +1,5 @@
 //! Shapes: boxes, balls, polygons, cylinders and so on.
 
-use crate::geometry::ellipse;
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::distance;
 use crate::{LevelSurface, Wave};
@@ -72,8 +71,7 @@ pub enum Shape<const D: usize> {
 impl<const D: usize> Shape<D> {
     /// Distance of a point from the surface, m, positive inside and negative outside.
     ///
-    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in
-    /// size, never in sign.
+    /// Exact inside; outside a cone or an extrusion it may be less than the true distance in size, never in sign.
     pub fn depth(&self, x: &[f64; D]) -> f64 {
         match self {
             Shape::Cuboid { lo, hi } => {
@@ -87,12 +85,13 @@ impl<const D: usize> Shape<D> {
             }
             Shape::Ball { centre, radius } => radius - distance(x, centre),
             Shape::Ellipse { centre, semi_axes } => {
-                ellipse::depth(*semi_axes, [x[0] - centre[0], x[1] - centre[1]])
+                ellipse_depth(*semi_axes, [x[0] - centre[0], x[1] - centre[1]])
             }
-            Shape::Side { surface, above } => match above {
-                true => surface.above(x),
-                false => -surface.above(x),
-            },
+            Shape::Side {
+                surface,
+                above: true,
+            } => surface.above(x),
+            Shape::Side { surface, .. } => -surface.above(x),
             Shape::OverWave(wave) => wave.above(x),
             Shape::Polygon(polygon) => polygon.depth([x[0], x[1]]),
             Shape::Cylinder { from, to, radius } => {
@@ -230,22 +229,56 @@ pub(crate) fn across<const D: usize>(x: &[f64; D], axis: usize) -> [f64; 2] {
     std::array::from_fn(|_| rest.next().unwrap_or(0.0))
 }
 
+/// Distance of a point from an ellipse about the origin, m, positive inside.
+///
+/// The nearest point (a²x/(t + a²), b²y/(t + b²)) has the root t of
+/// (ax/(t + a²))² + (by/(t + b²))² = 1 that is larger than −b²; a is the larger semi-axis.
+///
+/// Source: Eberly 2013, Distance from a point to an ellipse, §2.
+fn ellipse_depth(semi_axes: [f64; 2], x: [f64; 2]) -> f64 {
+    let turned = semi_axes[0] < semi_axes[1];
+    let order = |v: [f64; 2]| if turned { [v[1], v[0]] } else { v };
+    let [a, b] = order(semi_axes);
+    let [x, y] = order(x.map(f64::abs));
+    let inside = (x / a).powi(2) + (y / b).powi(2) <= 1.0;
+    let away = if y > 0.0 {
+        // In units of b: g falls from above 0 at low to below 0 at high.
+        let (u, v, r) = (x / b, y / b, (a / b).powi(2));
+        let ratio = a / b;
+        let g = |t: f64| (ratio * u / (t + r)).powi(2) + (v / (t + 1.0)).powi(2) - 1.0;
+        let (mut low, mut high) = (v - 1.0, (ratio * u).hypot(v) - 1.0);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            let end = if g(middle) > 0.0 { &mut low } else { &mut high };
+            *end = middle;
+        }
+        let t = 0.5 * (low + high);
+        b * (u * r / (t + r) - u).hypot(v / (t + 1.0) - v)
+    } else if a > b && x < (a * a - b * b) / a {
+        // On the long axis between the centres of curvature the nearest points are off it.
+        let foot = a * a * x / (a * a - b * b);
+        (foot - x).hypot(b * (1.0 - (foot / a).powi(2)).max(0.0).sqrt())
+    } else {
+        (x - a).abs()
+    };
+    if inside { away } else { -away }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn depths_are_distances_with_a_sign() {
-        let cuboid = Shape::Cuboid {
-            lo: [0.0; 3],
-            hi: [2.0, 4.0, 6.0],
-        };
+        let (lo, hi) = ([0.0; 3], [2.0, 4.0, 6.0]);
+        let cuboid = Shape::Cuboid { lo, hi };
         assert_eq!(cuboid.depth(&[0.5, 2.0, 3.0]), 0.5);
         assert_eq!(cuboid.depth(&[5.0, 8.0, 3.0]), -5.0);
-        let ball = Shape::Ball {
-            centre: [1.0, 1.0],
-            radius: 2.0,
-        };
+        let (centre, radius) = ([1.0, 1.0], 2.0);
+        let ball = Shape::Ball { centre, radius };
         assert_eq!(ball.depth(&[1.0, 2.0]), 1.0);
         assert_eq!(ball.bounds(), ([-1.0; 2], [3.0; 2]));
         let square = |lo: f64, hi: f64| Shape::Cuboid {
@@ -263,19 +296,13 @@ mod tests {
 
     #[test]
     fn solids_have_exact_depths_inside_and_bounds() {
-        let rod = Shape::Cylinder {
-            from: [0.0; 3],
-            to: [0.0, 4.0, 0.0],
-            radius: 1.0,
-        };
+        let (from, to, radius) = ([0.0; 3], [0.0, 4.0, 0.0], 1.0);
+        let rod = Shape::Cylinder { from, to, radius };
         assert_eq!(rod.depth(&[0.5, 2.0, 0.0]), 0.5);
         assert_eq!(rod.depth(&[4.0, 8.0, 0.0]), -5.0);
         assert_eq!(rod.bounds(), ([-1.0, 0.0, -1.0], [1.0, 4.0, 1.0]));
-        let tip = Shape::Cone {
-            base: [0.0; 3],
-            apex: [0.0, 0.0, 4.0],
-            radius: 3.0,
-        };
+        let (base, apex, radius) = ([0.0; 3], [0.0, 0.0, 4.0], 3.0);
+        let tip = Shape::Cone { base, apex, radius };
         assert!((tip.depth(&[0.0, 0.0, 1.5]) - 1.5).abs() < 1e-12);
         assert!((tip.depth(&[3.0, 0.0, 4.0]) + 2.4).abs() < 1e-12);
         assert_eq!(tip.bounds(), ([-3.0, -3.0, 0.0], [3.0, 3.0, 4.0]));
@@ -288,5 +315,24 @@ mod tests {
         assert_eq!(prism.depth(&[1.0, 5.125, 0.5]), 0.125);
         assert!(prism.depth(&[0.5, 7.0, 1.5]) < 0.0);
         assert_eq!(prism.bounds(), ([0.0, 5.0, 0.0], [2.0, 9.0, 1.0]));
+    }
+
+    #[test]
+    fn distances_are_those_of_the_densely_sampled_line() {
+        for axes in [[2.0, 1.0], [1.0, 2.0], [1.0, 1.0], [0.105, 0.095]] {
+            let near = [[0.0, 0.0], [0.3, 0.4], [1.0, 0.0], [0.0, 1.0]];
+            let far = [[1.9, 0.1], [-3.0, 2.0], [0.0, -5.0]];
+            for at in near.into_iter().chain(far) {
+                let x = [0, 1].map(|k: usize| at[k] * axes[k]);
+                let sampled = (0..200_000)
+                    .map(|k| f64::from(k) * std::f64::consts::TAU / 200_000.0)
+                    .map(|s| (axes[0] * s.cos() - x[0]).hypot(axes[1] * s.sin() - x[1]))
+                    .fold(f64::INFINITY, f64::min);
+                let found = ellipse_depth(axes, x);
+                let error = (found.abs() - sampled).abs();
+                assert!(error < 1e-7, "{axes:?} {x:?}: {found} {sampled}");
+                assert_eq!(found >= 0.0, at[0].hypot(at[1]) <= 1.0);
+            }
+        }
     }
 }

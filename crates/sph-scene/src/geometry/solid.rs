@@ -1,14 +1,14 @@
-//! Surfaces of shapes in space, their normals pointing outwards.
+//! Surfaces of shapes in space, their normals pointing outwards, and the division of curved ones.
 
 use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
 
 use scene_text::surface::{Facets, Welder, cross, dot, minus};
 use sph_core::Axis;
 
-use crate::Polygon;
-use crate::geometry::triangulate::triangulate;
+use crate::geometry::polygon::{Polygon, triangulate};
 use crate::geometry::vector::{array, unit};
-use crate::tables::wall_shapes::Face;
+use crate::tables::wall::Face;
 
 /// A box without the faces in `open`.
 pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3], open: &[Face]) -> Facets {
@@ -42,7 +42,7 @@ pub(crate) fn clean(c: f64) -> f64 {
 /// Corners of a regular polygon about the origin, the first at an angle of `turn`.
 pub(crate) fn ring(radius: f64, sides: usize, turn: f64) -> Vec<[f64; 2]> {
     let corner = |k: usize| {
-        let angle = turn + std::f64::consts::TAU * k as f64 / sides as f64;
+        let angle = turn + TAU * k as f64 / sides as f64;
         [radius * clean(angle.cos()), radius * clean(angle.sin())]
     };
     (0..sides).map(corner).collect()
@@ -63,35 +63,41 @@ fn ring_about(axis: &[f64; 3], flat: &[[f64; 2]]) -> Vec<[f64; 3]> {
     flat.iter().map(shift).collect()
 }
 
-fn plus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] + b[k])
+fn shifted(x: &[f64; 3], shifts: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let shift = |s: &[f64; 3]| std::array::from_fn(|k| x[k] + s[k]);
+    shifts.iter().map(shift).collect()
+}
+
+/// The numbers of the corners of a ring, each with the next.
+fn sides(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..count).map(move |k| (k, (k + 1) % count))
 }
 
 /// A prism over a ring between two points.
 pub(crate) fn cylinder(from: [f64; 3], to: [f64; 3], flat: &[[f64; 2]], open_ends: bool) -> Facets {
     let shifts = ring_about(&minus(&to, &from), flat);
-    let bottom: Vec<_> = shifts.iter().map(|s| plus(&from, s)).collect();
-    let top: Vec<_> = shifts.iter().map(|s| plus(&to, s)).collect();
+    let [mut bottom, top] = [from, to].map(|end| shifted(&end, &shifts));
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         surface.fan(&[bottom[k], bottom[next], top[next], top[k]]);
     }
     if !open_ends {
         surface.fan(&top);
-        surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+        bottom.reverse();
+        surface.fan(&bottom);
     }
     surface.finish()
 }
 
-/// A cone over a ring.
 pub(crate) fn cone(base: [f64; 3], apex: [f64; 3], flat: &[[f64; 2]]) -> Facets {
     let shifts = ring_about(&minus(&apex, &base), flat);
-    let bottom: Vec<_> = shifts.iter().map(|s| plus(&base, s)).collect();
+    let mut bottom = shifted(&base, &shifts);
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         surface.triangle([bottom[k], bottom[next], apex]);
     }
-    surface.fan(&bottom.into_iter().rev().collect::<Vec<_>>());
+    bottom.reverse();
+    surface.fan(&bottom);
     surface.finish()
 }
 
@@ -118,7 +124,7 @@ pub(crate) fn extrusion(
     };
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
     let mut surface = Welder::default();
-    for (k, next) in (1..=flat.len()).map(|k| k % flat.len()).enumerate() {
+    for (k, next) in sides(flat.len()) {
         let (a, b) = (&flat[k], &flat[next]);
         surface.fan(&[place(a, low), place(b, low), place(b, high), place(a, high)]);
     }
@@ -159,12 +165,8 @@ pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut corners = Vec::with_capacity(12);
     for (a, b) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        for k in 0..3 {
-            let mut x = [0.0; 3];
-            x[(k + 1) % 3] = a;
-            x[(k + 2) % 3] = b * golden;
-            corners.push(x);
-        }
+        let (a, b) = (a, b * golden);
+        corners.extend([[0.0, a, b], [b, 0.0, a], [a, b, 0.0]]);
     }
     let mut facets = Facets::default();
     let mut known: HashMap<Vec<(usize, usize)>, u32> = HashMap::new();
@@ -173,10 +175,8 @@ pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
             let mut weights: Vec<_> = face.into_iter().zip([parts - i - j, i, j]).collect();
             weights.retain(|(_, w)| *w > 0);
             weights.sort_unstable();
-            let flat: [f64; 3] = std::array::from_fn(|k| {
-                let along = weights.iter().map(|(n, w)| *w as f64 * corners[*n][k]);
-                along.sum()
-            });
+            let along = |(n, w): &(usize, usize), k: usize| *w as f64 * corners[*n][k];
+            let flat: [f64; 3] = std::array::from_fn(|k| weights.iter().map(|w| along(w, k)).sum());
             *known.entry(weights).or_insert_with(|| {
                 let away = dot(&flat, &flat).sqrt();
                 let x = std::array::from_fn(|k| centre[k] + radius * flat[k] / away);
@@ -216,10 +216,39 @@ fn icosahedron(corners: &[[f64; 3]]) -> Vec<[usize; 3]> {
     faces
 }
 
+/// Largest distance of an edge from the curve, in spacings.
+const SAGITTA: f64 = 0.02;
+/// Shortest edge, in spacings.
+const SHORTEST: f64 = 0.5;
+
+/// Sides of a circle of `radius` spacings: of one spacing, or shorter where the curve asks for
+/// it, but not shorter than half a spacing.
+fn sides_of_circle(radius: f64) -> usize {
+    let near = (TAU * radius).round();
+    let fine = (PI / (1.0 - (SAGITTA / radius).min(1.0)).acos()).ceil();
+    let most = (PI / (0.5 * SHORTEST / radius).min(1.0).asin()).floor();
+    near.max(fine).min(most).clamp(6.0, 1e5) as usize
+}
+
+/// The same where the scene leaves the number of sides open; `radius` and `spacing` in m.
+pub(crate) fn sides_of(given: Option<usize>, radius: f64, spacing: f64) -> usize {
+    given.unwrap_or_else(|| sides_of_circle(radius / spacing))
+}
+
+/// Parts of every edge of the icosahedron around a sphere of `radius` spacings, by the same rule.
+///
+/// Of n parts the shortest edge is 0.894/n radii long, the longest 1.323/n and the mean 1.107/n;
+/// the middle of the largest triangle is 0.292/n² radii below the sphere.
+pub(crate) fn subdivisions(radius: f64) -> usize {
+    let near = (1.107 * radius).round();
+    let fine = (0.292 * radius / SAGITTA).sqrt().ceil();
+    let most = (0.894 * radius / SHORTEST).floor();
+    near.max(fine).min(most).clamp(1.0, 500.0) as usize
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     fn closed(surface: &Facets, volume: f64, within: f64) {
         let topology = surface.topology();
@@ -243,14 +272,8 @@ mod tests {
         closed(&ball, 4.0 / 3.0 * PI * 8.0, 0.02);
         assert_eq!(ball.triangles.len(), 20 * 144);
         assert_eq!(ball.points.len(), 10 * 144 + 2);
-        let corners = [
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [2.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 2.0],
-            [0.0, 2.0],
-        ];
+        let low = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
+        let corners = [low, [[1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]].concat();
         let back: Vec<_> = corners.iter().rev().copied().collect();
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             for ends in [[0.5, 2.5], [2.5, 0.5]] {
@@ -282,5 +305,20 @@ mod tests {
         }
         let near = (0.88..0.92).contains(&least) && (1.29..1.33).contains(&most);
         assert!(near, "{least} {most}");
+    }
+
+    #[test]
+    fn circles_are_round_and_their_sides_not_short() {
+        for radius in [2.0, 3.0, 7.0, 40.0, 1000.0] {
+            let n = sides_of_circle(radius) as f64;
+            let sagitta = radius * (1.0 - (PI / n).cos());
+            let edge = 2.0 * radius * (PI / n).sin();
+            let round = sagitta < 0.0201 && edge > 0.499;
+            assert!(round, "{radius}: {sagitta} {edge}");
+        }
+        assert_eq!(sides_of_circle(40.0), 251);
+        assert_eq!(sides_of_circle(0.1), 6);
+        assert_eq!(sides_of_circle(1e9), 100_000);
+        assert_eq!(subdivisions(1e9), 500);
     }
 }

@@ -1,17 +1,15 @@
-//! The geometry of a wall as lines or facets.
+//! The geometry of a wall as lines or facets, scaled, turned and shifted.
 
-use scene_text::surface::Facets;
-use sph_core::{Axis, SceneProblem, bounds, unit_factor};
+use scene_text::surface::{Facets, Opening, cross, dot};
+use sph_core::{Axis, SceneProblem, Winding, bounds, number, unit_factor};
 
 use crate::drawings::format::lines;
-use crate::drawings::heading::Form;
-use crate::geometry::divide::{self, sides_of};
-use crate::geometry::outlines::{Line, SideError, oriented, rectangle};
-use crate::geometry::solid;
-use crate::geometry::transform::Placing;
-use crate::geometry::vector::array;
+use crate::drawings::rows::Form;
+use crate::geometry::outlines::{Line, oriented, rectangle};
+use crate::geometry::solid::{self, sides_of};
+use crate::geometry::vector::{array, point, unit_axis};
 use crate::reading::limits::{LINES, WALL_CORNERS};
-use crate::tables::wall_shapes::{Face, Wedge};
+use crate::tables::wall::{Face, Wedge};
 use crate::{FluidSide, SphereWall, Wall};
 
 /// Curves of drawings become lines within this many spacings.
@@ -22,6 +20,11 @@ const ACROSS: f64 = 1e4;
 const ELEMENTS: f64 = 2e7;
 /// Least extent of a geometry, in spacings.
 const LEAST: f64 = 2.0;
+
+/// Open surfaces of a smaller [`sense`] than this have no inside: a flat plate has 0, a cube without a lid 0.4.
+const NO_INSIDE: f64 = 0.02;
+/// Number of openings in a message.
+const TOLD: usize = 3;
 
 impl Wall {
     /// The lines of a wall in the plane, with the fluid on the left of travel; files are read.
@@ -51,42 +54,29 @@ impl Wall {
             _ => FluidSide::AsDrawn,
         };
         let turned = self.flip || open_box && self.side() == Some(FluidSide::Outside);
-        let lines = oriented(drawn, side).map_err(|why| match why {
-            SideError::Open(open) => {
-                let message = format!(
-                    "line {open} of the drawing, counted from 0, is not closed and has no inside: close \
-                     it, or leave out `fluid` and draw it with the fluid on the left of travel"
-                );
-                SceneProblem::new(format!("{place}.fluid"), message)
-            }
-            SideError::Tangled => problem(
-                "its lines have too many edges beside each other to find which is within which: leave \
-                 out `fluid` and draw them with the fluid on the left of travel"
-                    .to_string(),
-            ),
+        let lines = oriented(drawn, side).map_err(|(tangled, why)| match tangled {
+            true => problem(why),
+            false => SceneProblem::new(format!("{place}.fluid"), why),
         })?;
         let placing = Placing::new(self, factor);
         let placed = lines.into_iter().map(|line| {
-            let line = if turned { line.reversed() } else { line };
-            Line {
-                points: line.points.iter().map(|x| placing.flat(x)).collect(),
-                closed: line.closed,
-            }
+            let mut line = if turned { line.reversed() } else { line };
+            (line.points.iter_mut()).for_each(|x| *x = placing.flat(x));
+            line
         });
         let lines: Vec<Line> = placed.collect();
         if self.polyline.is_none() {
             let length = lines.iter().map(length).sum::<f64>();
-            let corners = lines.iter().flat_map(|l| l.points.iter().copied());
-            self.fits(&bounds(corners), length / spacing, spacing)
-                .map_err(problem)?;
+            let corners = bounds(lines.iter().flat_map(|l| l.points.iter().copied()));
+            let fits = self.fits(&corners, length / spacing, spacing);
+            fits.map_err(problem)?;
         }
         Ok(lines)
     }
 
     /// The triangles of a wall in space, right-hand normals into the fluid; files are read.
     ///
-    /// Plane faces have as few triangles as possible. `place` is the path of the wall in the
-    /// scene: `wall.tank`.
+    /// Plane faces have as few triangles as possible. `place` is the path of the wall in the scene: `wall.tank`.
     ///
     /// # Errors
     /// If a file cannot be read or holds no such geometry, or the size does not fit the spacing.
@@ -120,9 +110,61 @@ impl Wall {
         let placing = Placing::new(self, factor);
         facets.points.iter_mut().for_each(|x| *x = placing.apply(x));
         let elements = facets.area() / (spacing * spacing);
-        self.fits(&bounds(facets.points.iter().copied()), elements, spacing)
-            .map_err(problem)?;
-        Ok(facets)
+        let fits = self.fits(&facets.bounds(), elements, spacing);
+        fits.map(|()| facets).map_err(problem)
+    }
+
+    /// The facets of a file with the fluid on the side of the wall's key; `odd` is the first facet whose normal
+    /// in the file is not that of its corners.
+    fn sided(
+        &self,
+        facets: Facets,
+        odd: Option<usize>,
+        place: &str,
+    ) -> Result<Facets, SceneProblem> {
+        let at = |key: &str, why: String| Err(SceneProblem::new(format!("{place}.{key}"), why));
+        let topology = facets.topology();
+        if let Some(first) = topology.flipped.first().filter(|_| !self.align) {
+            let [corner, ..] = facets.corners(&facets.triangles[*first]);
+            let (flipped, all) = (topology.flipped.len(), facets.triangles.len());
+            let why = format!(
+                "{flipped} of {all} facets face the other way than those beside them, the first is facet {} at {}: \
+                 `align = true` turns them round",
+                first + 1,
+                point(&corner)
+            );
+            return at("file", why);
+        }
+        let facets = facets.turned(&topology.flipped);
+        let side = match self.side().unwrap_or(FluidSide::AsDrawn) {
+            FluidSide::AsDrawn => match odd.filter(|_| !self.align) {
+                None => self.flip.then_some(true),
+                Some(k) => {
+                    let why = format!(
+                        "the normal of facet {k} contradicts the order of its corners: give `fluid = \
+                         \"inside\"` or \"outside\", which go by the corners, or write the file anew"
+                    );
+                    return at("fluid", why);
+                }
+            },
+            side if topology.openings.is_empty() => {
+                Some((facets.volume() > 0.0) != (side == FluidSide::Outside))
+            }
+            side => {
+                let sense = sense(&facets);
+                if sense.abs() < NO_INSIDE {
+                    let why = format!(
+                        "the surface has {}, and no inside: leave out `fluid` where the normals point into the \
+                         fluid, `flip = true` turns them round",
+                        openings(&topology.openings)
+                    );
+                    return at("fluid", why);
+                }
+                Some((sense > 0.0) != (side == FluidSide::Outside))
+            }
+        };
+        let flipped = side == Some(true);
+        Ok(if flipped { facets.flipped() } else { facets })
     }
 
     /// Number of corners or facets of the wall's shape, where it is not in the length of the scene itself; none of a
@@ -148,10 +190,8 @@ impl Wall {
     fn drawn(&self, spacing: f64) -> Result<Vec<Line>, String> {
         let corners = |list: &[Vec<f64>]| list.iter().map(|p| array(p)).collect::<Vec<[f64; 2]>>();
         if let Some(points) = &self.polyline {
-            return Ok(vec![Line {
-                points: corners(points),
-                closed: self.closed,
-            }]);
+            let (points, closed) = (corners(points), self.closed);
+            return Ok(vec![Line { points, closed }]);
         }
         if let Some(points) = &self.polygon {
             return Ok(vec![Line::closed(corners(points))]);
@@ -202,10 +242,8 @@ impl Wall {
             let up = wedge.up.unwrap_or(Face::ZPlus);
             let across = 3 - wedge.rise.axis() - up.axis();
             let axis = [Axis::X, Axis::Y, Axis::Z][across];
-            let (ends, plane) = (
-                [wedge.lo[across], wedge.hi[across]],
-                wedge.plane(Face::ZPlus),
-            );
+            let ends = [wedge.lo[across], wedge.hi[across]];
+            let plane = wedge.plane(Face::ZPlus);
             return Some(solid::extrusion(&plane, axis, ends, false));
         }
         let whole = self.extrusion.as_ref()?;
@@ -251,7 +289,7 @@ impl Wall {
 impl SphereWall {
     /// Parts of every edge of the icosahedron, at a spacing in the unit of the geometry.
     fn parts(&self, spacing: f64) -> usize {
-        let open = || divide::subdivisions(self.shape.radius / spacing);
+        let open = || solid::subdivisions(self.shape.radius / spacing);
         self.subdivisions.unwrap_or_else(open)
     }
 }
@@ -269,9 +307,74 @@ impl Wedge {
 }
 
 fn length(line: &Line) -> f64 {
-    let closing = if line.closed { line.points.len() } else { 0 };
-    let pairs = line.points.windows(2).map(|p| (p[0], p[1]));
-    let ends = (closing > 1).then(|| (line.points[closing - 1], line.points[0]));
-    let pairs = pairs.chain(ends);
-    pairs.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+    let closing = line.points.first().filter(|_| line.closed);
+    let ends = line.points.iter().skip(1).chain(closing);
+    let edges = line.points.iter().zip(ends);
+    edges.map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
+}
+
+/// x → turn·(factor·x − centre) + centre + shift.
+struct Placing {
+    factor: f64,
+    turn: Option<RotationAxis>,
+    shift: [f64; 3],
+}
+
+struct RotationAxis {
+    centre: [f64; 3],
+    axis: [f64; 3],
+    cos: f64,
+    sin: f64,
+}
+
+impl Placing {
+    pub fn new(wall: &Wall, factor: f64) -> Self {
+        let turn = wall.rotate.as_ref().map(|rotate| RotationAxis {
+            centre: array(rotate.centre.as_deref().unwrap_or(&[])),
+            axis: unit_axis(&rotate.axis),
+            cos: solid::clean(rotate.angle.cos()),
+            sin: solid::clean(rotate.angle.sin()),
+        });
+        Placing {
+            factor,
+            turn,
+            shift: array(wall.translate.as_deref().unwrap_or(&[])),
+        }
+    }
+
+    pub fn apply(&self, x: &[f64; 3]) -> [f64; 3] {
+        let mut x = x.map(|c| self.factor * c);
+        if let Some(turn) = &self.turn {
+            let arm: [f64; 3] = std::array::from_fn(|k| x[k] - turn.centre[k]);
+            let across = cross(&turn.axis, &arm);
+            let along = dot(&turn.axis, &arm) * (1.0 - turn.cos);
+            x = std::array::from_fn(|k| {
+                let turned = turn.cos * arm[k] + turn.sin * across[k] + along * turn.axis[k];
+                turn.centre[k] + turned
+            });
+        }
+        std::array::from_fn(|k| x[k] + self.shift[k])
+    }
+
+    pub fn flat(&self, x: &[f64; 2]) -> [f64; 2] {
+        let [x, y, _] = self.apply(&[x[0], x[1], 0.0]);
+        [x, y]
+    }
+}
+
+/// Side that a surface faces: [`Winding::sense`].
+pub fn sense(facets: &Facets) -> f64 {
+    let corners = facets.triangles.iter().map(|t| facets.corners(t));
+    Winding::sense(&corners.collect::<Vec<_>>())
+}
+
+/// The largest openings in words, in the unit of the file.
+fn openings(all: &[Opening]) -> String {
+    let opening = |o: &Opening| {
+        let (edges, size, centre) = (o.edges, number::plain(o.size), point(&o.centre));
+        format!("{edges} edges, {size} across, around {centre}")
+    };
+    let told: Vec<String> = all.iter().take(TOLD).map(opening).collect();
+    let more = if all.len() > TOLD { "; …" } else { "" };
+    format!("{} openings ({}{more})", all.len(), told.join("; "))
 }

@@ -3,7 +3,6 @@
 use sph_core::{MOST_PROBLEMS, SceneProblem};
 use toml::{Table, Value};
 
-/// Most corners of a wall.
 pub(crate) const WALL_CORNERS: usize = 1_000_000;
 /// Most corners of a polygon that is filled.
 pub(crate) const BODY_CORNERS: usize = 10_000;
@@ -35,7 +34,6 @@ const LISTS: [(&[&str], usize); 14] = [
     (&["output", "picture"], TABLES),
 ];
 
-/// Lists and tables that are too long.
 pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
     let mut found = Vec::new();
     table(scene, "", &[], &mut found);
@@ -46,10 +44,8 @@ pub(crate) fn check(scene: &Table) -> Vec<SceneProblem> {
 fn table(all: &Table, path: &str, keys: &[&str], found: &mut Vec<SceneProblem>) {
     let n = all.len();
     if n > TABLES {
-        let what = match all.values().all(Value::is_table) {
-            true => "tables",
-            false => "keys",
-        };
+        let tables = all.values().all(Value::is_table);
+        let what = if tables { "tables" } else { "keys" };
         let message = format!("{n} {what} are more than {TABLES}");
         return found.push(SceneProblem::new(path, message));
     }
@@ -58,18 +54,17 @@ fn table(all: &Table, path: &str, keys: &[&str], found: &mut Vec<SceneProblem>) 
             return;
         }
         let dot = if path.is_empty() { "" } else { "." };
+        let path = format!("{path}{dot}{key}");
         let keys = [keys, &[key]].concat();
         if let Some(items) = value.as_array()
             && let Some((_, most)) = LISTS.iter().find(|(wanted, _)| fits(wanted, &keys))
             && items.len() > *most
         {
             let message = format!("{} entries are more than {most}", items.len());
-            found.push(SceneProblem::new(format!("{path}{dot}{key}"), message));
+            found.push(SceneProblem::new(path, message));
             continue;
         }
-        if matches!(value, Value::Table(_) | Value::Array(_)) {
-            nested(value, &format!("{path}{dot}{key}"), &keys, found);
-        }
+        nested(value, &path, &keys, found);
     }
 }
 

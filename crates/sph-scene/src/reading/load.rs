@@ -9,11 +9,11 @@ use sph_core::{SceneProblem, conform, kinds};
 use thiserror::Error;
 use toml::{Table, Value};
 
-use crate::checks::collected;
-use crate::reading::plugins::Plugins;
+use crate::Scene;
+use crate::checks;
+use crate::reading::plugins::{self, Plugins};
 use crate::reading::suited::add_suited;
-use crate::reading::{columns, hints, kinematic, limits, remarks, renamed, schema};
-use crate::{PathProblem, Scene};
+use crate::reading::{hints, limits, renamed, schema, units};
 
 /// A valid scene and the text it came from.
 #[derive(Clone, Debug)]
@@ -35,6 +35,17 @@ impl Loaded {
             _ => Table::new(),
         }
     }
+
+    /// Every file that the scene names, in the order of its keys.
+    pub fn files(&self) -> Vec<DataFile> {
+        let placed = |(key, named): (String, String)| DataFile {
+            path: self.source.resolve(&key, &named),
+            key,
+            named,
+        };
+        let files = named_files(&self.resolved()).into_iter();
+        files.map(placed).collect()
+    }
 }
 
 /// A scene that is not valid.
@@ -48,11 +59,8 @@ pub struct Refused {
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, diagnostic) in self.diagnostics.iter().enumerate() {
-            let line = if k == 0 { "" } else { "\n" };
-            write!(f, "{line}{diagnostic}")?;
-        }
-        Ok(())
+        let lines: Vec<String> = self.diagnostics.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\n"))
     }
 }
 
@@ -108,13 +116,13 @@ fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let unread = |e: toml::de::Error| diagnosed(vec![SceneProblem::new("", e.message())]);
     let (resolved, mut remarks) = resolved(source)?;
     let mut whole = resolved.as_table().cloned().unwrap_or_default();
-    kinematic::to_dynamic(&mut whole);
-    let (of_plugins, mistakes) = remarks::of_plugins(&whole);
+    units::to_dynamic(&mut whole);
+    let (of_plugins, mistakes) = plugins::of_plugins(&whole);
     let mut table = Value::Table(whole.clone());
     let plugins = take_plugins(&mut table).map_err(unread)?;
     let mut scene: Scene = table.try_into().map_err(unread)?;
     scene.plugins = plugins;
-    let mut problems = collected::scene(&mut scene, source);
+    let mut problems = checks::scene(&mut scene, source);
     add_new(&mut problems, mistakes);
     if !problems.is_empty() {
         return Err(diagnosed(hints::added(problems, &whole)));
@@ -156,10 +164,10 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
         problems.push(both);
         Vec::new()
     });
-    problems.extend(collected::tables(&table));
-    problems.extend(columns::convert(&mut table));
+    problems.extend(checks::tables(&table));
+    problems.extend(units::convert(&mut table));
     let mut written = table.clone();
-    kinematic::to_dynamic(&mut written);
+    units::to_dynamic(&mut written);
     let mut value = Value::Table(table);
     let mut remarks = conform(&mut value, &schema::of_scene()).unwrap_or_else(|found| {
         problems.extend(found);
@@ -169,7 +177,7 @@ fn resolved(source: &Source) -> Result<(Value, Vec<SceneProblem>), Vec<Diagnosti
     match problems.is_empty() {
         true => Ok((value, remarks)),
         false => {
-            add_new(&mut problems, remarks::of_plugins(&written).1);
+            add_new(&mut problems, plugins::of_plugins(&written).1);
             Err(diagnosed(hints::added(problems, &written)))
         }
     }
@@ -191,21 +199,6 @@ pub struct DataFile {
     pub key: String,
     /// The file as the scene names it.
     pub named: String,
-    /// Path of the file, if the scene may name it.
-    pub path: Result<PathBuf, PathProblem>,
-}
-
-impl Loaded {
-    /// Every file that the scene names, in the order of its keys.
-    pub fn files(&self) -> Vec<DataFile> {
-        let placed = |(key, named): (String, String)| DataFile {
-            path: self.source.resolve(&key, &named),
-            key,
-            named,
-        };
-        named_files(&self.resolved())
-            .into_iter()
-            .map(placed)
-            .collect()
-    }
+    /// Path of the file, if the scene may name it, or why it may not.
+    pub path: Result<PathBuf, String>,
 }

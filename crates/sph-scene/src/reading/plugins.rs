@@ -1,22 +1,29 @@
-//! Tables that name a plugin, kept as they stand.
+//! Tables that name a plugin, kept as they stand, and remarks on them before plugins are built.
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sph_core::{Place, PluginChoice, PluginKind, kinds};
+use sph_core::{
+    Place, PluginChoice, PluginKind, RegistryError, SceneProblem, conform, kind_of, kinds,
+};
 use toml::{Table, Value};
+
+/// The keys that lead to the tables of plugins of a kind, `*` for any; none where scenes name them otherwise.
+fn keys(kind: &PluginKind) -> Vec<&'static str> {
+    match kind.place {
+        Place::One | Place::Any => vec![kind.name],
+        Place::InPhase => vec!["phase", "*", kind.name],
+        Place::InWall => vec!["wall", "*", kind.name],
+        Place::Solution => vec!["body", "*", "initial"],
+        Place::Probe | Place::Elsewhere => Vec::new(),
+    }
+}
 
 /// Tables that hold exactly one plugin, as the keys that lead to them.
 fn single_tables() -> Vec<Vec<&'static str>> {
-    let path = |kind: &'static PluginKind| match kind.place {
-        Place::One => Some(vec![kind.name]),
-        Place::InPhase => Some(vec!["phase", "*", kind.name]),
-        Place::InWall => Some(vec!["wall", "*", kind.name]),
-        Place::Solution => Some(vec!["body", "*", "initial"]),
-        Place::Any | Place::Probe | Place::Elsewhere => None,
-    };
-    kinds().into_iter().filter_map(path).collect()
+    let single = kinds().into_iter().filter(|kind| kind.place != Place::Any);
+    single.map(keys).filter(|keys| !keys.is_empty()).collect()
 }
 
 inventory::submit! {
@@ -42,22 +49,19 @@ pub(crate) struct Probe {
 
 /// The tables of a scene that hold plugins of a kind, with their paths; probes and references hold theirs otherwise.
 pub(crate) fn holders<'t>(kind: &PluginKind, scene: &'t Table) -> Vec<(String, &'t Value)> {
-    let nested = |root: &str, key: &str| {
-        let named = scene.get(root).and_then(Value::as_table);
-        let held = |(name, keys): (&String, &'t Value)| {
-            Some((format!("{root}.{name}.{key}"), keys.get(key)?))
-        };
-        named.into_iter().flatten().filter_map(held).collect()
-    };
-    match kind.place {
-        Place::One | Place::Any => {
-            let own = scene.get(kind.name).into_iter();
-            own.map(|held| (kind.name.to_string(), held)).collect()
+    match keys(kind)[..] {
+        [own] => {
+            let held = scene.get(own).into_iter();
+            held.map(|held| (own.to_string(), held)).collect()
         }
-        Place::InPhase => nested("phase", kind.name),
-        Place::InWall => nested("wall", kind.name),
-        Place::Solution => nested("body", "initial"),
-        Place::Probe | Place::Elsewhere => Vec::new(),
+        [root, _, key] => {
+            let named = scene.get(root).and_then(Value::as_table);
+            let held = |(name, keys): (&String, &'t Value)| {
+                Some((format!("{root}.{name}.{key}"), keys.get(key)?))
+            };
+            named.into_iter().flatten().filter_map(held).collect()
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -72,13 +76,12 @@ pub(crate) fn in_table<'t, T: Into<Value> + Clone + 't>(
             return None;
         };
         let path = format!("{path}.{name}");
-        Some(PluginChoice {
+        Some(plugin_choice(
             kind,
-            name: name.clone(),
+            name.clone(),
             table,
-            path: path.clone(),
-            name_path: path,
-        })
+            [path.clone(), path],
+        ))
     };
     held.into_iter().filter_map(choice).collect()
 }
@@ -96,46 +99,91 @@ pub(crate) fn probes<'t, T: Into<Value> + Clone + 't>(
             return None;
         };
         let path = format!("{parent}.{name}");
-        let choice = PluginChoice {
-            kind: "probe",
-            name: kind,
-            table,
-            name_path: format!("{path}.kind"),
-            path,
-        };
-        Some((name.clone(), choice))
+        let places = [path.clone(), format!("{path}.kind")];
+        Some((name.clone(), plugin_choice("probe", kind, table, places)))
     };
     tables.into_iter().filter_map(choice).collect()
 }
 
-/// The solutions of the references of a scene.
 pub(crate) fn solutions(scene: &Table) -> Vec<PluginChoice> {
     let all = scene.get("reference").and_then(Value::as_table);
     let choice = |(reference, given): (&String, &Value)| {
         let parameters = given.get("parameters").and_then(Value::as_table);
+        let parameters = parameters.cloned().unwrap_or_default();
         let name = given.get("solution")?.as_str()?.to_string();
-        Some(solution(
-            reference,
-            name,
-            parameters.cloned().unwrap_or_default(),
-        ))
+        Some(solution(reference, name, parameters))
     };
     all.into_iter().flatten().filter_map(choice).collect()
 }
 
 /// The solution of a reference, by its name and parameters.
 pub(crate) fn solution(reference: &str, name: String, table: Table) -> PluginChoice {
+    let places = ["parameters", "solution"].map(|key| format!("reference.{reference}.{key}"));
+    plugin_choice("solution", name, table, places)
+}
+
+fn plugin_choice(
+    kind: &'static str,
+    name: String,
+    table: Table,
+    [path, name_path]: [String; 2],
+) -> PluginChoice {
     PluginChoice {
-        kind: "solution",
+        kind,
         name,
         table,
-        path: format!("reference.{reference}.parameters"),
-        name_path: format!("reference.{reference}.solution"),
+        path,
+        name_path,
     }
 }
 
-/// The only plugin of a kind in its table under a parent, as a choice.
-pub(crate) fn single(kind: &'static str, plugins: &Plugins, parent: &str) -> Option<PluginChoice> {
-    let all = in_table(kind, plugins, &format!("{parent}.{kind}"));
-    all.into_iter().next()
+/// Of every plugin that a scene names: remarks on its parameters, and the faults of its name or of them.
+pub(crate) fn of_plugins(scene: &Table) -> (Vec<SceneProblem>, Vec<SceneProblem>) {
+    let (mut remarks, mut mistakes) = (Vec::new(), Vec::new());
+    for choice in choices(scene) {
+        match check(&choice) {
+            Ok(found) => remarks.extend(found),
+            Err(found) => mistakes.extend(found),
+        }
+    }
+    (remarks, mistakes)
+}
+
+/// Remarks on the parameters of a plugin, or the faults of its name or of them.
+fn check(choice: &PluginChoice) -> Result<Vec<SceneProblem>, Vec<SceneProblem>> {
+    let kind = kind_of(choice.kind);
+    let plugins = kind.map_or(Vec::new(), |kind| (kind.plugins)());
+    if plugins.is_empty() {
+        // A reader of scenes without any plugin of the kind, which builds none.
+        return Ok(Vec::new());
+    }
+    let Some(plugin) = plugins.iter().find(|p| p.name == choice.name) else {
+        let known = plugins.iter().map(|p| p.name);
+        let error = RegistryError::unknown(choice.kind, &choice.name, known);
+        return Err(choice.scene_problems(&error));
+    };
+    let mut table = Value::Table(choice.table.clone());
+    let inside =
+        |found: Vec<SceneProblem>| choice.scene_problems(&RegistryError::Parameters(found));
+    conform(&mut table, &(plugin.schema)())
+        .map(inside)
+        .map_err(inside)
+}
+
+/// Every plugin that a scene names, in any form of the rest of the scene.
+fn choices(scene: &Table) -> Vec<PluginChoice> {
+    let mut all = Vec::new();
+    for kind in kinds() {
+        for (path, held) in holders(kind, scene) {
+            let held = held.as_table().into_iter().flatten();
+            all.extend(in_table(kind.name, held, &path));
+        }
+    }
+    for parent in ["probe", "gauge"] {
+        let tables = scene.get(parent).and_then(Value::as_table);
+        let found = tables.map(|tables| probes(parent, tables));
+        all.extend(found.into_iter().flatten().map(|(_, probe)| probe));
+    }
+    all.extend(solutions(scene));
+    all
 }

@@ -16,10 +16,8 @@ const COLUMNS: [[&str; 2]; 6] = [
     ["solid_share", "solid_fraction"],
 ];
 
-/// Replaces former names of keys, and of columns in outputs and probes; a remark for each, at its place.
-///
-/// # Errors
-/// A key that is given by both names.
+/// Replaces former names of keys, and of columns in outputs and probes; a remark for each, at its place, or the key that
+/// is given by both names.
 pub(crate) fn replace(scene: &mut Table) -> Result<Vec<SceneProblem>, SceneProblem> {
     let mut remarks = Vec::new();
     for [table, former, key] in KEYS {

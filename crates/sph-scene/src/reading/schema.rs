@@ -1,5 +1,6 @@
 //! The JSON schema of a whole scene, with every plugin of the binary, for editors.
 
+use scene_text::resolved;
 use serde_json::{Map, Value as Json, json};
 use sph_core::{Place, PluginKind, editors, kinds, schema_of};
 
@@ -32,9 +33,8 @@ pub(crate) fn of_scene() -> Json {
         if kind.place == Place::One {
             place["maxProperties"] = json!(1);
         }
-        if let Some(place) = place.as_object_mut() {
-            place.remove("$schema");
-            place.remove("title");
+        for key in ["$schema", "title"] {
+            place.as_object_mut().and_then(|place| place.remove(key));
         }
         properties.insert(name.to_string(), place);
     }
@@ -46,9 +46,7 @@ pub fn unit(key: &str) -> Option<String> {
     let root = schema_of::<Scene>();
     let mut here = &root;
     for part in key.split('.') {
-        let target = here.get("$ref").and_then(Json::as_str);
-        let target = target.and_then(|r| root.pointer(r.strip_prefix('#')?));
-        let table = target.unwrap_or(here);
+        let table = resolved(&root, here);
         let named = table.get("properties").and_then(|p| p.get(part));
         here = named.or_else(|| table.get("additionalProperties"))?;
     }

@@ -84,23 +84,19 @@ fn rests_beside_walls(scene: &Scene) -> bool {
 
 /// True if walls without open faces bound the filling of a body, and rows do not end at all of them.
 fn leaves_space(scene: &Scene) -> bool {
-    let off_rows = match scene.dimension {
-        2 => off_rows::<2>,
-        _ => off_rows::<3>,
-    };
     closed(scene) && scene.body.values().any(Body::needs_walls) && off_rows(scene)
 }
 
 /// True if a corner of a wall is off whole rows from the lowest corner.
-fn off_rows<const D: usize>(scene: &Scene) -> bool {
-    let corners = corners_of_walls::<D>(scene);
+fn off_rows(scene: &Scene) -> bool {
+    let corners = corners_of_walls::<3>(scene);
     let [lower, _] = bounds(corners.iter().copied());
-    let periods = scene.numerics.periodic.bounds::<D>();
-    let off = |x: &[f64; D], k: usize| {
+    let periods = scene.numerics.periodic.bounds::<3>();
+    let off = |x: &[f64; 3], k: usize| {
         let rows = (x[k] - lower[k]) / scene.numerics.spacing;
         periods[k].is_none() && (rows - rows.round()).abs() > OFF_HALF
     };
-    corners.iter().any(|x| (0..D).any(|k| off(x, k)))
+    corners.iter().any(|x| (0..3).any(|k| off(x, k)))
 }
 
 /// True if there are walls, and none has an open face.
@@ -155,10 +151,7 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     let all_known = scene.wall.values().all(|wall| known(wall, spacing));
     let laws = scene.phase.keys().map(|phase| law(scene, phase));
     FlowNature {
-        confined: match filled {
-            true => !bounded,
-            false => (0..D).all(spans),
-        },
+        confined: if filled { !bounded } else { (0..D).all(spans) },
         parallel: all_known && !stirred && !corners.is_empty() && (0..D).any(along),
         open: (scene.wall.values()).any(|w| !w.mover.is_empty() || !w.open_boundary.is_empty()),
         heavy: heavy(scene),
@@ -168,9 +161,8 @@ fn nature<const D: usize>(scene: &Scene) -> FlowNature {
     }
 }
 
-/// The nature of the law of a phase.
 fn law(scene: &Scene, phase: &str) -> LawNature {
-    let known = scene.rheology(phase).and_then(|choice| {
+    let known = scene.choice_in("rheology", phase).and_then(|choice| {
         let mut all = inventory::iter::<LawNatures>.into_iter();
         all.find_map(|natures| (natures.0)(&choice.name, &choice.table))
     });
@@ -182,12 +174,12 @@ fn known(wall: &Wall, spacing: f64) -> bool {
     wall.file.is_none() && wall.declared(spacing) <= MOST
 }
 
-/// Corners of all walls whose box is known, m.
+/// Corners of all walls whose box is known, m, those in the plane at z = 0.
 fn corners_of_walls<const D: usize>(scene: &Scene) -> Vec<[f64; D]> {
     let spacing = scene.numerics.spacing;
     let all = scene.wall.values().filter(|wall| known(wall, spacing));
     let corners = |wall: &Wall| -> Vec<[f64; D]> {
-        if D == 3 {
+        if scene.dimension == 3 {
             let facets = wall.facets("", spacing).unwrap_or_default();
             return facets.points.iter().map(|x| array(x)).collect();
         }

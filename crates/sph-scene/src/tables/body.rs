@@ -1,12 +1,11 @@
 //! The tables `[body.NAME]`, where a phase is at the start, and `[phase.NAME]`, one material.
 
 use scene_text::given;
-use sph_core::parameters;
+use sph_core::{Axis, parameters};
 
 use crate::geometry::polygon::Polygon;
 use crate::geometry::vector::array;
 use crate::reading::plugins::{AnyPlugins, Plugins};
-use crate::tables::body_shapes::{Cone, Cylinder, Ellipse, Extrusion, Round};
 use crate::{LevelSurface, Shape, Wave};
 
 /// A piece of a phase at the start: one shape, or the volume that walls enclose, less subtracted shapes.
@@ -117,10 +116,8 @@ impl BodyShape {
             return Some(Shape::Polygon(polygon(points)));
         }
         if let Some(e) = &self.ellipse {
-            return Some(Shape::Ellipse {
-                centre: array(&e.centre),
-                semi_axes: e.semi_axes,
-            });
+            let (centre, semi_axes) = (array(&e.centre), e.semi_axes);
+            return Some(Shape::Ellipse { centre, semi_axes });
         }
         if let Some(c) = &self.cylinder {
             let (from, to, radius) = (array(&c.from), array(&c.to), c.radius);
@@ -138,10 +135,8 @@ impl BodyShape {
             });
         }
         let round = self.disc.as_ref().or(self.sphere.as_ref())?;
-        Some(Shape::Ball {
-            centre: array(&round.centre),
-            radius: round.radius,
-        })
+        let (centre, radius) = (array(&round.centre), round.radius);
+        Some(Shape::Ball { centre, radius })
     }
 }
 
@@ -150,6 +145,73 @@ impl Body {
     pub fn needs_walls(&self) -> bool {
         self.clip || self.fill.is_some()
     }
+}
+
+/// A disc or a sphere.
+#[parameters]
+pub struct Round {
+    /// Centre, m.
+    #[parameter(unit: "m")]
+    pub centre: Vec<f64>,
+    /// Radius of the circle or sphere, m; that of a wall goes through its corners.
+    #[parameter(unit: "m", above: 0.0)]
+    pub radius: f64,
+}
+
+/// An ellipse with its axes along x and y.
+#[parameters]
+pub struct Ellipse {
+    /// Centre, m.
+    #[parameter(unit: "m")]
+    pub centre: Vec<f64>,
+    /// Semi-axes along x and along y, m.
+    #[schemars(inner(range(min = 0.0)))]
+    #[parameter(unit: "m")]
+    pub semi_axes: [f64; 2],
+}
+
+/// A cylinder.
+#[parameters]
+pub struct Cylinder {
+    /// Centre of one end, m.
+    #[parameter(unit: "m")]
+    pub from: Vec<f64>,
+    /// Centre of the other end, m.
+    #[parameter(unit: "m")]
+    pub to: Vec<f64>,
+    /// Radius of the circle, m; that of a wall goes through its corners.
+    #[parameter(unit: "m", above: 0.0)]
+    pub radius: f64,
+}
+
+/// A cone.
+#[parameters]
+pub struct Cone {
+    /// Centre of the base, m.
+    #[parameter(unit: "m")]
+    pub base: Vec<f64>,
+    /// Tip, m.
+    #[parameter(unit: "m")]
+    pub apex: Vec<f64>,
+    /// Radius of the circle of the base, m; that of a wall goes through its corners.
+    #[parameter(unit: "m", above: 0.0)]
+    pub radius: f64,
+}
+
+/// A polygon drawn out along an axis.
+#[parameters]
+pub struct Extrusion {
+    /// Corners of the polygon in order, m, as the two coordinates across the axis: (y, z), (x, z) or (x, y).
+    #[parameter(unit: "m", min_items: 3)]
+    pub polygon: Vec<Vec<f64>>,
+    /// Axis along which it is drawn out.
+    pub axis: Axis,
+    /// Coordinate of one end along the axis, m.
+    #[parameter(unit: "m")]
+    pub from: f64,
+    /// Coordinate of the other end along the axis, m.
+    #[parameter(unit: "m")]
+    pub to: f64,
 }
 
 /// A material: its density, how it resists compression and how it flows.

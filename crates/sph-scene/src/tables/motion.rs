@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer};
+use sph_core::course::Course;
 use sph_core::parameters;
-
-use crate::reading::one_or_many::{OneOrMany, one_or_many};
 
 /// Rigid motion of a wall: translations, added up, and a rotation about a centre that they carry.
 ///
@@ -153,15 +154,9 @@ pub struct Sine {
     /// Amplitude a of the displacement, m.
     #[parameter(unit: "m")]
     pub amplitude: f64,
-    /// Period T, s.
-    #[parameter(unit: "s", above: 0.0)]
-    pub period: f64,
-    /// Phase φ, rad.
-    #[parameter(default, unit: "rad")]
-    pub phase: f64,
-    /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
-    #[parameter(default, unit: "s", min: 0.0)]
-    pub ramp: f64,
+    /// Its times.
+    #[serde(flatten)]
+    pub oscillation: Oscillation,
 }
 
 /// Oscillation: a·r(t)·sin(2πt/T + φ), less its value at t = 0.
@@ -170,6 +165,14 @@ pub struct AngularSine {
     /// Amplitude a of the angle, rad.
     #[parameter(unit: "rad")]
     pub amplitude: f64,
+    /// Its times.
+    #[serde(flatten)]
+    pub oscillation: Oscillation,
+}
+
+/// Times of an oscillation a·r(t)·sin(2πt/T + φ).
+#[parameters]
+pub struct Oscillation {
     /// Period T, s.
     #[parameter(unit: "s", above: 0.0)]
     pub period: f64,
@@ -181,12 +184,40 @@ pub struct AngularSine {
     pub ramp: f64,
 }
 
+impl Oscillation {
+    /// The course of an amplitude a.
+    pub fn course(&self, amplitude: f64) -> Course {
+        Course::sine(amplitude, self.period, self.phase, self.ramp)
+    }
+}
+
 impl Motion {
-    /// Path of a translation below that of the motion; a single table has no number.
-    pub(crate) fn translate_path(&self, place: &str, k: usize) -> String {
+    /// Key of a translation; a single table has no number.
+    pub(crate) fn translate_key(&self, k: usize) -> String {
         match self.translate.len() {
-            1 => format!("{place}.translate"),
-            _ => format!("{place}.translate[{k}]"),
+            1 => "translate".to_string(),
+            _ => format!("translate[{k}]"),
         }
     }
+}
+
+/// One value or a list.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum OneOrMany<T> {
+    /// One.
+    One(T),
+    /// Several.
+    Many(Vec<T>),
+}
+
+pub(crate) fn one_or_many<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    OneOrMany::deserialize(from).map(|given| match given {
+        OneOrMany::One(one) => vec![one],
+        OneOrMany::Many(many) => many,
+    })
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use sph_core::parameters;
 
-use crate::Motion;
+use crate::{Motion, Oscillation};
 
 /// Duration and accuracy of the run.
 #[parameters]
@@ -182,13 +182,7 @@ pub struct GravitySine {
     /// Amplitude a, m/s², one entry per dimension.
     #[parameter(unit: "m/s²")]
     pub amplitude: Vec<f64>,
-    /// Period T, s.
-    #[parameter(unit: "s", above: 0.0)]
-    pub period: f64,
-    /// Phase φ, rad.
-    #[parameter(default, unit: "rad")]
-    pub phase: f64,
-    /// Time, s, over which r rises smoothly from 0 to 1; at once if 0.
-    #[parameter(default, unit: "s", min: 0.0)]
-    pub ramp: f64,
+    /// Its times.
+    #[serde(flatten)]
+    pub oscillation: Oscillation,
 }

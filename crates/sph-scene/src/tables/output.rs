@@ -3,7 +3,7 @@
 use scene_text::PictureRange;
 use sph_core::parameters;
 
-use crate::reading::one_or_many::{OneOrMany, one_or_many};
+use crate::tables::motion::{OneOrMany, one_or_many};
 
 /// Files of a run, and the times of writing.
 #[parameters]

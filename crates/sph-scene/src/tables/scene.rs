@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use sph_core::{PluginChoice, SceneProblem, Vect, parameters};
 
 use crate::geometry::vector::array;
-use crate::reading::plugins::{Plugins, Probe, in_table, probes, single, solution};
+use crate::reading::plugins::{Plugins, Probe, in_table, probes, solution};
 use crate::{Body, Numerics, Outlet, Output, Phase, Reference, Region, Run, Wall, Zone};
 
 /// Displacement at the start, over the spacing, where particles are shifted and the scene has no key for it.
@@ -148,34 +148,18 @@ impl Scene {
         named.map(|(kind, _)| *kind)
     }
 
-    /// The equation of state of a phase, if the scene chooses one.
-    pub fn equation_of_state(&self, phase: &str) -> Option<PluginChoice> {
-        let plugins = &self.phase.get(phase)?.equation_of_state;
-        single("equation-of-state", plugins, &format!("phase.{phase}"))
-    }
-
-    /// The rheology of a phase.
-    pub fn rheology(&self, phase: &str) -> Option<PluginChoice> {
-        let plugins = &self.phase.get(phase)?.rheology;
-        single("rheology", plugins, &format!("phase.{phase}"))
-    }
-
-    /// Mover of a wall, if the scene chooses one.
-    pub fn mover(&self, wall: &str) -> Option<PluginChoice> {
-        let plugins = &self.wall.get(wall)?.mover;
-        single("mover", plugins, &format!("wall.{wall}"))
-    }
-
-    /// Open boundary at a wall, if the scene chooses one.
-    pub fn open_boundary(&self, wall: &str) -> Option<PluginChoice> {
-        let plugins = &self.wall.get(wall)?.open_boundary;
-        single("open-boundary", plugins, &format!("wall.{wall}"))
-    }
-
-    /// The plugin that gives a body its velocity at the start, if the scene chooses one.
-    pub fn initial(&self, body: &str) -> Option<PluginChoice> {
-        let plugins = &self.body.get(body)?.initial;
-        single("initial", plugins, &format!("body.{body}"))
+    /// The plugin of a kind that a phase, wall or body of a name chooses in its table: `rheology`, `mover`, `initial`, ….
+    pub fn choice_in(&self, kind: &'static str, name: &str) -> Option<PluginChoice> {
+        let (table, plugins) = match kind {
+            "equation-of-state" => ("phase", &self.phase.get(name)?.equation_of_state),
+            "rheology" => ("phase", &self.phase.get(name)?.rheology),
+            "mover" => ("wall", &self.wall.get(name)?.mover),
+            "open-boundary" => ("wall", &self.wall.get(name)?.open_boundary),
+            "initial" => ("body", &self.body.get(name)?.initial),
+            _ => return None,
+        };
+        let all = in_table(kind, plugins, &format!("{table}.{name}.{kind}"));
+        all.into_iter().next()
     }
 
     /// The reference solution of a comparison, if it has one.
@@ -205,10 +189,8 @@ impl Scene {
 
     /// The table of a probe or gauge of a name: `probe` or `gauge`.
     pub fn table_of_probe(&self, name: &str) -> &'static str {
-        match self.gauge.contains_key(name) {
-            true => "gauge",
-            false => "probe",
-        }
+        let gauge = self.gauge.contains_key(name);
+        if gauge { "gauge" } else { "probe" }
     }
 
     /// Probes and gauges: the name of each and its plugin.

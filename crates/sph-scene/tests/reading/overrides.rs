@@ -56,7 +56,7 @@ fn values_reach_the_scene() {
     assert_eq!(scene.run.end, 2.0);
     assert_eq!(scene.wall["tank"].polyline.as_ref().unwrap()[0], [0.0, 0.3]);
     assert_eq!(scene.choice("kernel").unwrap().name, "wendland-c4");
-    let rheology = scene.rheology("water").unwrap();
+    let rheology = scene.choice_in("rheology", "water").unwrap();
     assert_eq!(rheology.name, "bingham");
     assert_eq!(rheology.table["yield_stress"].as_str(), Some("10 kPa"));
     let (name, probe) = &scene.probes()[0];
@@ -110,7 +110,7 @@ fn only_an_override_may_name_an_absolute_path() {
 #[test]
 fn a_problem_found_later_is_shown_where_the_plugin_stands() {
     let loaded = with(&[]).unwrap();
-    let choice = loaded.scene.rheology("water").unwrap();
+    let choice = loaded.scene.choice_in("rheology", "water").unwrap();
     let error = sph_core::RegistryError::Parameters(vec![sph_core::SceneProblem::new(
         "viscosity",
         "must be more than 2",

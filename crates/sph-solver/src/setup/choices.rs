@@ -46,8 +46,10 @@ pub struct Choices<const D: usize> {
 /// The plugins that a scene names.
 pub fn plugins(scene: &Scene) -> Plugins {
     let one = |phase: &String| {
-        let all = [scene.rheology(phase), scene.equation_of_state(phase)];
-        all.into_iter().flatten().collect()
+        let kinds = ["rheology", "equation-of-state"].into_iter();
+        kinds
+            .filter_map(|kind| scene.choice_in(kind, phase))
+            .collect()
     };
     let choices = scene.kinds_named().flat_map(|kind| scene.choices(kind));
     Plugins::new(choices.collect(), scene.phase.keys().map(one).collect())
@@ -82,10 +84,12 @@ impl<const D: usize> Choices<D> {
             true => None,
             false => plugins.one::<D, WallEntry>(),
         };
-        let movers = named(scene.wall.keys(), |wall| scene.mover(wall));
-        let open = named(scene.wall.keys(), |wall| scene.open_boundary(wall));
+        let movers = named(scene.wall.keys(), |wall| scene.choice_in("mover", wall));
+        let open = named(scene.wall.keys(), |wall| {
+            scene.choice_in("open-boundary", wall)
+        });
         let solutions = named(scene.reference.keys(), |name| scene.solution(name));
-        let initial = named(scene.body.keys(), |body| scene.initial(body));
+        let initial = named(scene.body.keys(), |body| scene.choice_in("initial", body));
         let probes = plugins.named::<D, ProbeEntry>(scene.probes());
         plugins.shown = shown(scene, &probes);
         if plugins.shown.iter().any(|name| needs_gradient(name)) {
