@@ -113,14 +113,14 @@ impl<const D: usize> Fit<D> {
 #[inline(always)]
 fn basis<const D: usize, const N: usize, L: Lane>(away: &[&[f64]; D], from: usize) -> (L, [L; N]) {
     let mut x = [L::splat(0.0); D];
-    for axis in 0..D {
-        x[axis] = L::load(&away[axis][from..]);
+    for (x, away) in x.iter_mut().zip(away) {
+        *x = L::load(&away[from..]);
     }
     let mut basis = [L::splat(1.0); N];
     let mut term = 1;
-    for axis in 0..D {
+    for x in x {
         if term < N {
-            basis[term] = x[axis];
+            basis[term] = x;
             term += 1;
         }
     }
@@ -159,9 +159,9 @@ impl<const D: usize, const N: usize> Body for Moments<'_, D, N> {
                     }
                 }
             }
-            for column in 0..N {
-                for row in column..N {
-                    sums[column][row].store(&mut self.sums[column][row][lanes..]);
+            for (column, sums) in self.sums.iter_mut().zip(&sums) {
+                for (row, sum) in column.iter_mut().zip(sums) {
+                    sum.store(&mut row[lanes..]);
                 }
             }
         }
@@ -183,8 +183,8 @@ impl<const D: usize, const N: usize> Body for Values<'_, D, N> {
         for from in (0..self.weights.len()).step_by(L::N) {
             let (weight, basis) = basis::<D, N, L>(&self.away, from);
             let mut sum = L::splat(0.0);
-            for term in 0..N {
-                sum += L::splat(self.value[term]) * basis[term];
+            for (value, term) in self.value.iter().zip(&basis) {
+                sum += L::splat(*value) * *term;
             }
             (weight * sum).store(&mut self.weights[from..]);
         }

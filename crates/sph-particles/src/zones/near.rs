@@ -30,14 +30,10 @@ impl<'a, const D: usize> Near<'a, D> {
     #[inline(always)]
     pub fn visit(&self, x: &Vect<D>, mut each: impl FnMut(usize, &Vect<D>, f64)) {
         let per_radius = 1.0 / self.radius;
-        let periodic = self.domain.any_periodic();
         let order = self.grid.order();
         self.grid.ranges(x, self.radius, |found| {
             for (k, place) in order[found.clone()].iter().zip(&self.places[found]) {
-                let mut way = place - x;
-                if periodic {
-                    way = self.domain.nearest_image(way);
-                }
+                let way = self.domain.nearest_image(place - x);
                 // Summed in registers: the sum of the vector goes through memory.
                 let square = (0..D).fold(0.0, |sum, axis| sum + way[axis] * way[axis]);
                 if square < self.radius * self.radius {
