@@ -91,8 +91,8 @@ mod tests {
     #[test]
     fn types_are_those_of_the_functions() {
         let all = expanded(
-            "fn own<L: Lane>(&self, all: Particles) -> [L; D] {} fn weight(&self) {} fn finish(&self, sum: f64) {} \
-             fn pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {}",
+            "fn own<L: Lane>(&self, all: Particles) -> [L; D] {} fn weight(&self) {} fn finish(&self, sum: f64) {} fn \
+             pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {}",
         );
         let all = all.expect("a sum");
         for part in [

@@ -71,8 +71,11 @@ fn factored(shape: &PiecewisePolynomial, polynomials: &[Vec<f64>], scale: f64) -
             (0, until, p)
         };
         let mut coefficients = algebra::scaled(&p, scale);
-        while coefficients.len() > 1 && coefficients.last() == Some(&0.0) {
+        while coefficients.last() == Some(&0.0) {
             coefficients.pop();
+        }
+        if coefficients.is_empty() {
+            coefficients.push(0.0);
         }
         Piece {
             until,

@@ -42,18 +42,19 @@ fn the_wave_of_lobovsky_strikes_at_2_45_as_was_seen() {
     assert!(before < 1.0, "{before} Pa before the wave came");
 }
 
-/// The stream of a dam break flows into a zone before it strikes the wall. Where the band held it back the mean pressure
-/// was a ninth lower. Runs with 10 and 5 mm differ by 5 %; 2 % was measured.
+/// The stream of a dam break flows into a zone before it strikes the wall. Where the band held it back it was 6 % slower; 0.8 %
+/// faster was measured, with 5 mm everywhere 0.3 %. The pressure after the impact scatters by 8 % with the zone's place.
 #[test]
-fn a_stream_strikes_a_wall_through_a_zone_as_hard_as_without() {
+fn a_stream_flows_into_a_zone_as_fast_as_without() {
     let mean = |zone: &str| {
-        let sets = ["numerics.spacing=0.01", "run.end=0.8", zone];
+        let stream = "probe.stream={kind='velocity', at=[1.3, 0.015]}";
+        let sets = ["numerics.spacing=0.01", "run.end=0.6", stream, zone];
         let series = finished("dam-break-lobovsky", &sets).series();
-        series.mean("P1", 0.5)
+        series.mean("stream.x", 0.45)
     };
-    let zones = ["zone={}", "zone.wall.box=[[1.0,-0.1],[1.7,0.3]]"];
-    let [without, with] = zones.map(mean);
-    near(with, without, 0.05, "Pa");
+    let zone = "zone.wall={box=[[1.0, -0.1], [1.7, 0.3]], probes=['stream']}";
+    let [without, with] = ["zone={}", zone].map(mean);
+    near(with, without, 0.02, "m/s");
 }
 
 /// Spray flies apart: where the density follows the divergence it would thin out to 2 % and throw the fluid about at 0.23 s.

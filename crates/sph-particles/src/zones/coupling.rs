@@ -14,7 +14,7 @@ use sph_solver::Flow;
 use super::fit::weight;
 use super::frame::Frame;
 use super::guard::{Guard, spread};
-use super::near::Near;
+use super::near::NearbyPlaces;
 use super::sample::{REACH, State, States};
 use crate::setup::{Assembled, measure_walls};
 
@@ -272,7 +272,7 @@ fn with_mean_densities<const D: usize>(
     let places: Vec<Vect<D>> = led.iter().map(|(k, _)| position[*k]).collect();
     let missing = led.iter().map(|(k, state)| state.density - density[*k]);
     let missing: Vec<f64> = missing.collect();
-    let near = Near::new(&places, REACH * flow.world.spacing, domain);
+    let near = NearbyPlaces::new(&places, REACH * flow.world.spacing, domain);
     let mean = |(k, state): &(usize, State<D>)| {
         let (mut weights, mut sum) = (0.0, 0.0);
         near.visit(&position[*k], |other, _, q| {

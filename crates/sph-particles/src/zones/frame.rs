@@ -15,7 +15,7 @@ const BAND: f64 = 2.0;
 /// The shape of a zone, where it was drawn and where it is.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame<const D: usize> {
-    /// Where it was drawn; along a period that a box spans it has no sides.
+    /// Shape as it was drawn; along a period that a box spans it has no sides.
     pub shape: Shape<D>,
     /// Width of the band around it, m.
     pub band: f64,
@@ -51,7 +51,7 @@ impl<const D: usize> Frame<D> {
         })
     }
 
-    /// Where it is while a flow is in its present state.
+    /// The same in the present state of a flow.
     pub fn at(&self, flow: &Flow<D>) -> Self {
         let walls = &flow.world.walls;
         let carrier = self.carrier.as_ref();

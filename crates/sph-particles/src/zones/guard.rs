@@ -8,7 +8,7 @@ use sph_neighbours::CellGrid;
 use sph_solver::Flow;
 
 use super::frame::Frame;
-use super::near::Near;
+use super::near::NearbyPlaces;
 use super::sample::{Sample, Source, States};
 
 /// Distance from the band over the spacing around it, beyond which a finer particle is brought back.
@@ -270,7 +270,7 @@ pub(crate) fn spread<const D: usize>(
     let near = |k: &usize| !frame.holds(&position[*k], -spacing);
     let band: Vec<usize> = (0..position.len()).filter(near).collect();
     let places: Vec<Vect<D>> = band.iter().map(|k| position[*k]).collect();
-    let near = Near::new(&places, reach, domain);
+    let near = NearbyPlaces::new(&places, reach, domain);
     let moved = |x: &Vect<D>| {
         let mut way = Vect::<D>::zeros();
         near.visit(x, |_, there, q| {

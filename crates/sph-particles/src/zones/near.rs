@@ -4,7 +4,7 @@ use sph_core::Vect;
 use sph_neighbours::{CellGrid, Domain};
 
 /// Places among which those within a radius of any place are found.
-pub(crate) struct Near<'a, const D: usize> {
+pub(crate) struct NearbyPlaces<'a, const D: usize> {
     domain: &'a Domain<D>,
     grid: CellGrid<D>,
     /// The places in the order of the cells.
@@ -13,12 +13,12 @@ pub(crate) struct Near<'a, const D: usize> {
     radius: f64,
 }
 
-impl<'a, const D: usize> Near<'a, D> {
+impl<'a, const D: usize> NearbyPlaces<'a, D> {
     /// Of places in a box, and a radius, m.
     pub fn new(places: &[Vect<D>], radius: f64, domain: &'a Domain<D>) -> Self {
         let grid = CellGrid::new(places, radius, domain);
         let order = grid.order().iter();
-        Near {
+        NearbyPlaces {
             places: order.map(|k| places[*k as usize]).collect(),
             domain,
             grid,

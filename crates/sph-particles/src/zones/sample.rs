@@ -6,7 +6,7 @@ use sph_neighbours::{Domain, World};
 use sph_solver::Flow;
 
 use super::fit::Fit;
-use super::near::Near;
+use super::near::NearbyPlaces;
 
 /// Density, velocity and acceleration at a place.
 #[derive(Clone, Copy, Debug)]
@@ -103,13 +103,13 @@ impl<const D: usize> Sample<D> {
 /// A sample from which states elsewhere are fitted.
 pub(crate) struct Source<'a, const D: usize> {
     sample: &'a Sample<D>,
-    near: Near<'a, D>,
+    near: NearbyPlaces<'a, D>,
 }
 
 impl<'a, const D: usize> Source<'a, D> {
     /// Of particles with a spacing, m.
     pub fn new(sample: &'a Sample<D>, domain: &'a Domain<D>, spacing: f64) -> Self {
-        let near = Near::new(&sample.positions, REACH * spacing, domain);
+        let near = NearbyPlaces::new(&sample.positions, REACH * spacing, domain);
         Source { sample, near }
     }
 
@@ -138,15 +138,21 @@ impl<'a, const D: usize> Source<'a, D> {
             velocity: Vect::zeros(),
             acceleration: Vect::zeros(),
         };
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
         for (weight, k) in weights.iter().zip(near) {
             let state = &self.sample.states[*k as usize];
             sum.density += state.density * *weight;
             sum.velocity += state.velocity * *weight;
             sum.acceleration += state.acceleration * *weight;
+            (least, most) = (least.min(state.density), most.max(state.density));
         }
+        sum.density = sum.density.clamp(least / SPRAY, SPRAY * most);
         Some(sum)
     }
 }
 
+/// Factor by which a fitted density is at most out of the range of the particles' own: in spray densities of 0.4 lie beside
+/// 1, and a polynomial through them reaches 0.
+const SPRAY: f64 = 2.0;
 /// Radius of a fit over the spacing of the particles.
 pub(crate) const REACH: f64 = 3.0;
