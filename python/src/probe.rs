@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use sph_core::{AnyField, StepError, plugin};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 use crate::columns::field_of;
 use crate::functions::{call, known};
@@ -39,8 +39,12 @@ impl<const D: usize> Probe<D> for PythonProbe {
     fn columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::only(kept(&self.unit))
     }
-    fn needs_fields(&self) -> Vec<String> {
-        self.columns.clone()
+
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: self.columns.clone(),
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -53,6 +53,50 @@ pub struct ProbeScene<'a> {
     pub strangers: &'a [&'static str],
 }
 
+/// Quantities that a probe reads and that are computed for such probes only.
+#[derive(Clone, Debug, Default)]
+pub struct Needs<'a> {
+    /// The wall whose force it reads.
+    pub force_on: Option<&'a str>,
+    /// Neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone: where a flow
+    /// is divided, one process computes these.
+    pub around: bool,
+    /// The displacement of the particles.
+    pub displacement: bool,
+    /// The work of all terms on the particles.
+    pub books: bool,
+    /// Names of derived fields.
+    pub fields: Vec<String>,
+}
+
+/// Curves of a probe: a table is written with every output of fields, `curves/NAME_0003.csv`.
+pub trait Curves<const D: usize> {
+    /// The columns of the table.
+    fn curve_columns(&self) -> Vec<ProbeColumn>;
+    /// The rows now; NaN where there is nothing to measure.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn curves(&self, world: &World<D>) -> Result<Vec<Vec<f64>>, StepError>;
+    /// Column that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
+    fn drawn_column(&self) -> Option<usize> {
+        None
+    }
+}
+
+/// Sums of a probe over the rows of the series.
+pub trait Gathers<const D: usize> {
+    /// Takes the flow at a row into the sums.
+    ///
+    /// # Errors
+    /// If a column of the flow is missing.
+    fn gather(&self, world: &World<D>) -> Result<(), StepError>;
+    /// The sums, bit by bit, for checkpoints.
+    fn gathered(&self) -> Vec<u64>;
+    /// Goes on with the sums of a run that is resumed.
+    fn recall(&self, gathered: &[u64]);
+}
+
 /// Something measured at every row of the time series.
 pub trait Probe<const D: usize>: Send {
     /// The columns it adds.
@@ -64,55 +108,18 @@ pub trait Probe<const D: usize>: Send {
     fn prepare(&mut self, _scene: &ProbeScene<'_>) -> Result<(), String> {
         Ok(())
     }
-    /// The wall whose force it reads, which is computed for such probes only.
-    fn needs_force_on(&self) -> Option<&str> {
+    /// Quantities that are computed for such probes only.
+    fn needs(&self) -> Needs<'_> {
+        Needs::default()
+    }
+    /// Its curves, if it has some.
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
         None
     }
-    /// True if it reads neighbour lists, contacts, or columns of walls besides forces, and not columns of particles alone:
-    /// where a flow is divided, one process computes these.
-    fn needs_around(&self) -> bool {
-        false
-    }
-    /// True if it reads the displacement of the particles.
-    fn needs_displacement(&self) -> bool {
-        false
-    }
-    /// True if it reads the work of all terms on the particles.
-    fn needs_books(&self) -> bool {
-        false
-    }
-    /// Names of the derived fields that it reads.
-    fn needs_fields(&self) -> Vec<String> {
-        Vec::new()
-    }
-    /// The columns of its curves, if it has some: a table is written with every output of fields, `curves/NAME_0003.csv`.
-    fn curve_columns(&self) -> Vec<ProbeColumn> {
-        Vec::new()
-    }
-    /// The rows of the curves now; NaN where there is nothing to measure.
-    ///
-    /// # Errors
-    /// If a column of the flow is missing.
-    fn curves(&self, _world: &World<D>) -> Result<Vec<Vec<f64>>, StepError> {
-        Ok(Vec::new())
-    }
-    /// Column of the curves that is drawn, `pictures/NAME_0003.png`, as a map over the first two.
-    fn drawn_column(&self) -> Option<usize> {
+    /// Its sums over time, if it has some.
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
         None
     }
-    /// Takes the flow at a row of the series into the sums over time, if the probe has some.
-    ///
-    /// # Errors
-    /// If a column of the flow is missing.
-    fn gather(&self, _world: &World<D>) -> Result<(), StepError> {
-        Ok(())
-    }
-    /// The sums, bit by bit, for checkpoints.
-    fn gathered(&self) -> Vec<u64> {
-        Vec::new()
-    }
-    /// Goes on with the sums of a run that is resumed.
-    fn recall(&self, _gathered: &[u64]) {}
     /// The file that its key `file` names, if it compares with one.
     fn file(&self) -> Option<&str> {
         None

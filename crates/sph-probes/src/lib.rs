@@ -18,7 +18,9 @@ mod phases;
 mod sampling;
 mod solutions;
 
-pub use contract::{Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry};
+pub use contract::{
+    Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene, Solution, SolutionEntry,
+};
 pub use derived::{
     SURFACE_DISTANCE, derived_fields, derived_stages, needs_gradient, surface_distance,
 };
@@ -28,3 +30,4 @@ pub use flow::energy_budget::{
 pub use flow::profile::Profile;
 pub use measure::{Reduce, Reduction, Weight, WeightedValues};
 pub use phases::level::Level;
+pub use solutions::*;

@@ -8,6 +8,12 @@ mod free_bodies;
 mod periodic;
 mod soils;
 
+pub use bingham_poiseuille::BinghamPoiseuille;
+pub use channels::{BifluidPoiseuille, Couette, DuctPoiseuille, HagenPoiseuille, Poiseuille};
+pub use free_bodies::{EllipticalDrop, Hydrostatic, RigidRotation, RotatingSquare};
+pub use periodic::{Cantilever, ElasticShearWave, TaylorGreen, TaylorGreen3d};
+pub use soils::{Bagnold, Terzaghi};
+
 /// A velocity along an axis, m/s.
 fn along<const D: usize>(axis: usize, speed: f64) -> Option<Vect<D>> {
     let mut velocity = Vect::zeros();

@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, fields, plugin};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 use crate::columns::{DISSIPATION, TURBULENT_ENERGY};
 
@@ -26,8 +26,11 @@ impl<const D: usize> Probe<D> for TurbulentEnergyProbe {
         ]
     }
 
-    fn needs_fields(&self) -> Vec<String> {
-        vec![TURBULENT_ENERGY.name.into()]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![TURBULENT_ENERGY.name.into()],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

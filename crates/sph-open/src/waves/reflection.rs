@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use sph_core::{StepError, plugin};
 use sph_neighbours::World;
-use sph_probes::{Level, Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Curves, Gathers, Level, Probe, ProbeColumn, ProbeEntry};
 
 use crate::waves::{Amplitude, Separated, separated, wavenumber_on};
 
@@ -213,6 +213,16 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         Ok(summed(&self.found(world.gravity.norm())?))
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> Curves<D> for ReflectionProbe {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let all = [("frequency", "Hz"), ("incident", "m"), ("reflected", "m")];
         all.map(|(name, unit)| ProbeColumn::named(name, unit))
@@ -224,7 +234,9 @@ impl<const D: usize> Probe<D> for ReflectionProbe {
         let row = |(f, w): &(f64, Separated)| vec![*f, w.incident.norm(), w.reflected.norm()];
         Ok(found.iter().map(row).collect())
     }
+}
 
+impl<const D: usize> Gathers<D> for ReflectionProbe {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         let gauge = |x: &f64| {
             let level = Level::over(vec![*x, self.across]);

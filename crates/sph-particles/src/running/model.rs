@@ -41,8 +41,9 @@ impl<const D: usize> Model for Running<'_, D> {
         }
         let shown = self.whole.as_ref().unwrap_or(&self.parts);
         for (name, probe) in &shown.probes {
-            if let Some(gathered) = self.counters.probes.remove(name) {
-                probe.recall(&gathered);
+            let gathered = self.counters.probes.remove(name);
+            if let (Some(gathered), Some(sums)) = (gathered, probe.as_gathers()) {
+                sums.recall(&gathered);
             }
         }
         self.energy.recall(self.counters.energies);

@@ -28,9 +28,10 @@ pub(crate) struct Outputs<'a, const D: usize> {
 
 /// The files of a scene's outputs.
 pub fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
-    let drawn = probes.iter().any(|(_, p)| p.drawn_column().is_some());
+    let curves = || probes.iter().filter_map(|(_, p)| p.as_curves());
+    let drawn = curves().any(|c| c.drawn_column().is_some());
     let pictures = drawn || !scene.output.picture.is_empty();
-    let curves = probes.iter().any(|(_, p)| !p.curve_columns().is_empty());
+    let curves = curves().next().is_some();
     Outlay {
         vtk: scene.output.vtk,
         pictures: scene.output.picture.clone(),
@@ -90,14 +91,14 @@ impl<const D: usize> Outputs<'_, D> {
             picture.save(frames.picture(name))?;
         }
         for (name, probe) in &self.shown.probes {
-            let columns = probe.curve_columns();
-            if columns.is_empty() {
+            let Some(curves) = probe.as_curves() else {
                 continue;
-            }
-            let rows = probe.curves(&flow.world)?;
+            };
+            let columns = curves.curve_columns();
+            let rows = curves.curves(&flow.world)?;
             let table = columns.iter().map(|c| (&c.suffix, c.unit));
             sph_io::write_table(frames.table("curves", name), table, &rows)?;
-            if let Some(drawn) = probe.drawn_column() {
+            if let Some(drawn) = curves.drawn_column() {
                 let label = format!("{} [{}]", columns[drawn].suffix, columns[drawn].unit);
                 let values: Vec<f64> = rows.iter().map(|row| row[drawn]).collect();
                 let (range, told) = self.range(name, &values, &mut frames.colours);

@@ -65,7 +65,7 @@ pub fn columns_of_all<const D: usize>(
 
 /// True if a probe needs lists and contacts.
 pub fn looks_around<const D: usize>(probes: &Probes<D>) -> bool {
-    probes.iter().any(|(_, p)| p.needs_around())
+    probes.iter().any(|(_, p)| p.needs().around)
 }
 
 impl<const D: usize> Running<'_, D> {

@@ -75,7 +75,9 @@ impl Extrema {
         }
         for (name, probe) in &shown.probes {
             let (probe, world) = zones.measuring(name).unwrap_or((&**probe, &flow.world));
-            probe.gather(world)?;
+            probe
+                .as_gathers()
+                .map_or(Ok(()), |sums| sums.gather(world))?;
             row.extend(probe.measure(world)?);
         }
         let ([least, largest], [low, high]) = (self.density_range, balance.density_range);

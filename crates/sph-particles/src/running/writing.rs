@@ -81,7 +81,7 @@ impl<const D: usize> Running<'_, D> {
         counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let shown = self.shown();
         let sums = shown.probes.iter();
-        let sums = sums.map(|(name, p)| (name.clone(), p.gathered()));
+        let sums = sums.filter_map(|(name, p)| Some((name.clone(), p.as_gathers()?.gathered())));
         let counters = Counters {
             stage_seconds: self.stage_seconds(books),
             works: self.parts.flow.counts(),

@@ -264,7 +264,7 @@ fn show<const D: usize>(
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
     let moved = shown.iter().any(|f| f == fields::DISPLACEMENT.name);
-    if moved || probes.iter().any(|(_, p)| p.needs_displacement()) {
+    if moved || probes.iter().any(|(_, p)| p.needs().displacement) {
         flow.world.free.add(fields::DISPLACEMENT, Role::State);
     }
     term_accelerations::open(shown, flow);

@@ -94,7 +94,7 @@ pub fn measure_walls<const D: usize>(
     flow: &mut Flow<D>,
     probes: &Probes<D>,
 ) -> Result<(), StepError> {
-    let read = probes.iter().filter_map(|(_, p)| p.needs_force_on());
+    let read = probes.iter().filter_map(|(_, p)| p.needs().force_on);
     let read: Vec<&str> = read.collect();
     match read.is_empty() {
         true => Ok(()),

@@ -6,7 +6,7 @@ use sph_neighbours::World;
 
 use crate::measure::presets::Direction;
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Levels of a bed, its load, and Shields numbers.
 ///
@@ -111,6 +111,12 @@ impl<const D: usize> Probe<D> for BedLevels {
         ])
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> Curves<D> for BedLevels {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let mut all = ProbeColumn::several(&[
             ("x", "m"),

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, bounds, fields, parameters, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Curves, Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Three curves over a movable bed, moving mass of it (kg, per metre of width), and lowest point of the motion (m).
 ///
@@ -83,6 +83,12 @@ impl Probe<2> for BedLines {
         Ok(vec![mass, heights.fold(f64::NAN, f64::min)])
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<2>> {
+        Some(self)
+    }
+}
+
+impl Curves<2> for BedLines {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let names = ["x", "surface", "interface", "limit"];
         names.map(|name| ProbeColumn::named(name, "m")).into()
@@ -207,8 +213,11 @@ impl Probe<2> for Line {
         Ok(())
     }
 
-    fn needs_displacement(&self) -> bool {
-        self.of == LineOf::Failure
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            displacement: self.of == LineOf::Failure,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<2>) -> Result<Vec<f64>, StepError> {

@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Width of a cell in spacings: one that grains have spread from by less than a spacing is not empty.
 const WIDTH: f64 = 2.0;
@@ -150,6 +150,12 @@ impl Probe<3> for ScourMap {
         ])
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<3>> {
+        Some(self)
+    }
+}
+
+impl Curves<3> for ScourMap {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let names = ["x", "y", "height", "depth"];
         names.map(|name| ProbeColumn::named(name, "m")).into()

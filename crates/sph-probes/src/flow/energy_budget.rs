@@ -5,7 +5,7 @@ use sph_neighbours::World;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use crate::{Probe, ProbeColumn, ProbeEntry, ProbeScene};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry, ProbeScene};
 
 /// Terms that give energy to a particle or take it, in the order of [`ENERGY_WORKS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,8 +120,11 @@ impl<const D: usize> Probe<D> for EnergyBudget {
         Ok(())
     }
 
-    fn needs_books(&self) -> bool {
-        true
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            books: true,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -7,7 +7,7 @@ use sph_core::{StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::sampling::NearbyParticles;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// The largest |ψ| with ψ(x, y) = ∫ u_x dy′ from the bottom y₀ of a box, and its place: the
 /// strength and the centre of a vortex.
@@ -310,6 +310,12 @@ impl<const D: usize> Probe<D> for EnergySpectrum {
         Ok(vec![total, peak.map_or(f64::NAN, |p| p[0])])
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> Curves<D> for EnergySpectrum {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[("wavenumber", "1/m"), ("energy", "m³/s²")])
     }

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use crate::measure::quantity::{AXES, Quantity};
 use crate::norm::at;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Means and root mean squares of the fluctuations in layers across an axis, over all particles of a layer and all rows of the
 /// series from a time on: ⟨f⟩ = Σ V f/Σ V and √(⟨f²⟩ − ⟨f⟩²), f being a component of the velocity or a scalar field.
@@ -184,10 +184,23 @@ impl<const D: usize> Probe<D> for MeanProfile {
         Ok(())
     }
 
-    fn needs_fields(&self) -> Vec<String> {
-        (self.field.iter())
-            .filter_map(|name| Quantity::named(name).column().map(String::from))
-            .collect()
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: {
+                (self.field.iter())
+                    .filter_map(|name| Quantity::named(name).column().map(String::from))
+                    .collect()
+            },
+            ..Needs::default()
+        }
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+
+    fn as_gathers(&self) -> Option<&dyn Gathers<D>> {
+        Some(self)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -210,7 +223,9 @@ impl<const D: usize> Probe<D> for MeanProfile {
         let rms = (squares / rows.len() as f64).sqrt();
         Ok(vec![rms, largest, relative])
     }
+}
 
+impl<const D: usize> Curves<D> for MeanProfile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let mut all = vec![ProbeColumn::named("distance", "m")];
         let of = |what: &str, k: usize| match self.field {
@@ -250,7 +265,9 @@ impl<const D: usize> Probe<D> for MeanProfile {
         };
         Ok((0..self.layers).map(row).collect())
     }
+}
 
+impl<const D: usize> Gathers<D> for MeanProfile {
     fn gather(&self, world: &World<D>) -> Result<(), StepError> {
         if world.time < self.after {
             return Ok(());

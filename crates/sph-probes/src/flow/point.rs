@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, fields, plugin, suggestion};
 use sph_neighbours::{World, cross};
 
 use crate::sampling::mean_around;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Pressure at a point, in the fluid or on a wall, averaged over the face of a sensor.
 ///
@@ -160,8 +160,11 @@ impl<const D: usize> Probe<D> for PorePressureProbe {
         ProbeColumn::only("Pa")
     }
 
-    fn needs_fields(&self) -> Vec<String> {
-        vec![fields::PORE_PRESSURE.name.into()]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            fields: vec![fields::PORE_PRESSURE.name.into()],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -196,8 +199,11 @@ impl<const D: usize> Probe<D> for DisplacementProbe {
         ProbeColumn::components(D, "m")
     }
 
-    fn needs_displacement(&self) -> bool {
-        true
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            displacement: true,
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -5,7 +5,7 @@ use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
 use crate::flow::point::point;
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Curves, Probe, ProbeColumn, ProbeEntry};
 
 /// Root mean square over a reference's places of u − e, with u a component of the velocity on a straight
 /// line and e the reference, and the largest |u − e|, m/s. The profile itself is its curve.
@@ -131,6 +131,12 @@ impl<const D: usize> Probe<D> for Profile {
         Ok(vec![(squares / count as f64).sqrt(), largest])
     }
 
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        Some(self)
+    }
+}
+
+impl<const D: usize> Curves<D> for Profile {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::several(&[("distance", "m"), ("velocity", "m/s"), ("reference", "m/s")])
     }

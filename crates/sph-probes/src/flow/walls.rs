@@ -4,7 +4,7 @@ use sph_core::{StepError, Vect, plugin, suggestion};
 use sph_neighbours::{WallForce, World, cross};
 
 use crate::flow::point::{point, wall_number};
-use crate::{Probe, ProbeColumn, ProbeEntry};
+use crate::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 /// Force and moment of the fluid on a named wall, pressure and friction together, and the pressure integral by itself.
 ///
@@ -48,8 +48,11 @@ impl<const D: usize> Probe<D> for WallForceProbe {
         [forces.clone(), moments, under(".pressure", forces)].concat()
     }
 
-    fn needs_force_on(&self) -> Option<&str> {
-        Some(&self.wall)
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            force_on: Some(&self.wall),
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {

@@ -7,7 +7,7 @@ use sph_neighbours::World;
 
 use super::quantity::{AXES, Quantity, Reduce, WeightedValues};
 use crate::phases::phase::{self, CountedPhase};
-use crate::{Probe, ProbeColumn, ProbeScene, norm};
+use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
 
 /// Bounds on a quantity, the lower and the upper one: a particle on a bound does not count.
 pub(crate) type QuantityBounds = (Quantity, [f64; 2]);
@@ -158,12 +158,19 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
         Ok(())
     }
 
-    fn needs_fields(&self) -> Vec<String> {
+    fn needs(&self) -> Needs<'_> {
         let of_conditions = self.conditions.iter().map(|(of, _)| of);
         let all = self.columns.iter().map(|column| &column.of);
         let all = all.chain(of_conditions).chain(&self.weight);
         let fields = all.filter_map(|of| Some(of.column()?.to_string()));
-        fields.collect()
+        Needs {
+            fields: fields.collect(),
+            ..Needs::default()
+        }
+    }
+
+    fn as_curves(&self) -> Option<&dyn Curves<D>> {
+        self.slices.is_some().then_some(self)
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
@@ -177,7 +184,9 @@ impl<const D: usize> Probe<D> for MeasuringProbe {
         }
         Ok(columns)
     }
+}
 
+impl<const D: usize> Curves<D> for MeasuringProbe {
     fn curve_columns(&self) -> Vec<ProbeColumn> {
         let Some((axis, _)) = self.slices else {
             return Vec::new();

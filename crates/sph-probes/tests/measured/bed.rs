@@ -62,10 +62,15 @@ fn measured(kind: &str, keys: &str) -> Vec<f64> {
 #[test]
 fn the_three_curves_are_the_lines_they_were_made_from() {
     let bed = probe("bed-lines", "phase = \"sand\"");
-    let columns = bed.curve_columns().into_iter();
-    let names: Vec<_> = columns.map(|c| c.suffix).collect();
+    let names: Vec<_> = bed
+        .as_curves()
+        .unwrap()
+        .curve_columns()
+        .into_iter()
+        .map(|c| c.suffix)
+        .collect();
     assert_eq!(names, ["x", "surface", "interface", "limit"]);
-    let rows = bed.curves(&world()).unwrap();
+    let rows = bed.as_curves().unwrap().curves(&world()).unwrap();
     assert_eq!(rows.len(), 10, "a row for two spacings");
     // Between the first and the last particle of its line and clear of the steps in the middle.
     let inner = |x: f64| (0.1..0.4).contains(&x) || (0.6..0.9).contains(&x);

@@ -62,7 +62,7 @@ fn the_failure_line_is_over_what_has_hardly_moved() {
     // Five rows lie above it.
     let line: Vec<[f64; 2]> = (1..19).map(|k| [0.05 * f64::from(k), 0.75]).collect();
     let keys = "of = \"failure\"\nmoved = \"1 mm\"";
-    assert!(probe(keys).needs_displacement() && !probe("").needs_displacement());
+    assert!(probe(keys).needs().displacement && !probe("").needs().displacement);
     let found = measured(keys, &world(0.0), line.clone());
     assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
     let all = measured(

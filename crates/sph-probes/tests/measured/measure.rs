@@ -104,7 +104,7 @@ fn a_line_is_fitted_and_slices_are_curves() {
         "statistic",
         "field = 'pressure'\nreduce = ['mean', 'max']\nalong = 'x'",
     );
-    let curves = &probe;
+    let curves = probe.as_curves().expect("curves");
     let names: Vec<_> = curves
         .curve_columns()
         .into_iter()

@@ -2,7 +2,7 @@
 
 use sph_core::{Role, Store, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, Profile};
+use sph_probes::{Curves, Probe, Profile};
 
 /// Particles of the unit square, off their lattice by 0.2 δr, in a linear flow.
 fn sheared() -> World<2> {

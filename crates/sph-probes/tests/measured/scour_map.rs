@@ -81,7 +81,7 @@ fn a_row_half_gone_counts_half_and_a_bed_gone_is_as_deep_as_its_ground() {
     };
     *world.free.get_mut(fields::PHASE).unwrap() = water;
     let all = "within = [[0.0, 0.0], [0.4, 0.4]]";
-    let rows = probe(all).curves(&world).unwrap();
+    let rows = probe(all).as_curves().unwrap().curves(&world).unwrap();
     let depth = |x: f64, y: f64| {
         let near = |row: &&Vec<f64>| (row[0] - x).hypot(row[1] - y) < 1e-9;
         rows.iter().find(near).map(|row| row[3])
@@ -99,7 +99,7 @@ fn a_row_half_gone_counts_half_and_a_bed_gone_is_as_deep_as_its_ground() {
 #[test]
 fn whole_cells_fill_the_part_that_counts() {
     let probe = probe("within = [[0.05, 0.0], [0.4, 0.4]]");
-    let rows = probe.curves(&world()).unwrap();
+    let rows = probe.as_curves().unwrap().curves(&world()).unwrap();
     let mut across: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     across.dedup();
     assert_eq!(across.len(), 3);
@@ -112,10 +112,11 @@ fn whole_cells_fill_the_part_that_counts() {
 #[test]
 fn the_map_has_a_row_for_every_cell_of_two_spacings() {
     let probe = probe("");
-    let rows = probe.curves(&world()).unwrap();
+    let rows = probe.as_curves().unwrap().curves(&world()).unwrap();
     assert_eq!(rows.len(), 16);
-    let drawn = probe.drawn_column().unwrap();
-    assert_eq!(probe.curve_columns()[drawn].suffix, "depth");
+    let curves = probe.as_curves().unwrap();
+    let drawn = curves.drawn_column().unwrap();
+    assert_eq!(curves.curve_columns()[drawn].suffix, "depth");
     let pit = rows.iter().filter(|row| row[drawn] > 0.0).count();
     assert_eq!(pit, 4);
     for row in rows {

@@ -40,7 +40,9 @@ fn nested<const D: usize>(scene: &Scene, name: &str, zone: &Zone, check: &mut Ta
     let alone = ratio < 0.5 && around.is_none();
     check.refuse(alone, &format!("{name}.ratio"), message);
     if let Some(around) = around.filter(|around| scene.zone[*around].follows != zone.follows) {
-        let message = format!("the zone `{around}` around it does not move alike: give both the same `follows`");
+        let message = format!(
+            "the zone `{around}` around it does not move alike: give both the same `follows`"
+        );
         check.add(&format!("{name}.follows"), message);
     }
     let own = zone.shape.shape::<D>();

@@ -128,6 +128,6 @@ impl<const D: usize> Choices<D> {
 /// Names of the columns that outputs show and probes measure.
 pub fn shown<const D: usize>(scene: &Scene, probes: &[(String, Box<dyn Probe<D>>)]) -> Vec<String> {
     let shown = scene.output.fields.iter().chain(&scene.output.picture);
-    let measured = probes.iter().flat_map(|(_, p)| p.needs_fields());
+    let measured = probes.iter().flat_map(|(_, p)| p.needs().fields);
     shown.cloned().chain(measured).collect()
 }

@@ -22,7 +22,7 @@ pub fn open<const D: usize>(
     formulation: &dyn Formulation<D>,
     flow: &mut Flow<D>,
 ) -> Result<(), SolverError> {
-    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs_books()) else {
+    let Some((name, _)) = probes.iter().find(|(_, probe)| probe.needs().books) else {
         return Ok(());
     };
     let comes = !flow.gates.is_empty();

@@ -2,7 +2,7 @@
 
 use sph_core::{StepError, plugin, suggestion};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeColumn, ProbeEntry};
+use sph_probes::{Needs, Probe, ProbeColumn, ProbeEntry};
 
 use crate::columns::{FRICTION_VELOCITY, WALL_UNITS};
 
@@ -30,12 +30,12 @@ impl<const D: usize> Probe<D> for FrictionVelocityProbe {
         ]
     }
 
-    fn needs_around(&self) -> bool {
-        true
-    }
-
-    fn needs_fields(&self) -> Vec<String> {
-        vec![FRICTION_VELOCITY.name.into(), WALL_UNITS.name.into()]
+    fn needs(&self) -> Needs<'_> {
+        Needs {
+            around: true,
+            fields: vec![FRICTION_VELOCITY.name.into(), WALL_UNITS.name.into()],
+            ..Needs::default()
+        }
     }
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
