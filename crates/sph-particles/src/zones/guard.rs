@@ -180,6 +180,9 @@ impl<const D: usize> Guard<D> {
     /// Takes out the finer particles nearest to those that leave, as many as these are divided into; the next nearest keeps
     /// the difference of mass.
     fn take_out(&self, zone: &mut Flow<D>, goes: &[usize]) -> Result<(), StepError> {
+        if goes.is_empty() {
+            return Ok(());
+        }
         let mut mass = zone.world.free.take(fields::MASS)?;
         let world = &zone.world;
         let position = world.free.get(fields::POSITION)?;
@@ -213,9 +216,7 @@ impl<const D: usize> Guard<D> {
             }
         }
         zone.world.free.put(fields::MASS, mass)?;
-        if leaves.contains(&true) {
-            zone.world.free.take_out(&leaves);
-        }
+        zone.world.free.take_out(&leaves);
         Ok(())
     }
 
