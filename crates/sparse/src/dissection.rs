@@ -141,7 +141,7 @@ fn cover(joins: &Groups, right: usize) -> [Vec<bool>; 2] {
             }
         }
     }
-    // What alternating paths from unmatched ends on the left reach.
+    // Ends that alternating paths reach from unmatched ends on the left.
     let mut seen = [vec![false; left], vec![false; right]];
     let unmatched = (0..left as u32).filter(|u| mates[0][*u as usize] == NONE);
     let mut stack: Vec<u32> = unmatched.collect();

@@ -106,7 +106,7 @@ impl Profile {
         if flat || *self == Profile::Uniform {
             return Ok(());
         }
-        let why = "a profile goes over a plane rectangle with its sides along axes of space, and this face is none: take \
+        let why = "a profile goes over a plane rectangle with its sides along axes of space; this face has another shape: take \
                    `uniform`, or draw the face as a `box` with its other five sides in `open`";
         refuse("profile", why)
     }

@@ -255,7 +255,7 @@ pub fn unit(name: &str) -> &'static str {
     field(name).map_or("", |(_, unit, _)| unit)
 }
 
-/// One number per grain; zeros for a name that is none.
+/// One number per grain; zeros for an unknown name.
 pub fn values(name: &str, model: &Model, origin: &Origin) -> Vec<f64> {
     match field(name) {
         Some((.., values)) => values(model, origin),

@@ -140,8 +140,8 @@ pub trait WallMesh<const D: usize>:
     /// True if the way `by` from a point leads through an element.
     fn is_crossed(&self, near: NearElement<D>, point: &Vect<D>, by: &Vect<D>) -> bool;
 
-    /// Least height of a point over the planes of the elements near it, of those that it is in front of, m; infinite where there
-    /// is none. No element is nearer.
+    /// Least height of a point over the planes of those elements near it that face it, m; infinite without such an element. No
+    /// element is nearer.
     fn clearance(&self, point: &Vect<D>, near: &[NearElement<D>]) -> f64;
 
     /// Planes at which the walls keep off a particle, among the places nearer than `reach` metres.

@@ -142,7 +142,7 @@ pub struct Snapshot {
     pub spacing: f64,
 }
 
-/// The box around points, whose coordinates that are not finite do not count; zero along an axis where there is none.
+/// The box around the finite coordinates of points; zero along an axis without a finite coordinate.
 pub(crate) fn finite_bounds<'p>(points: impl Iterator<Item = &'p [f64; 3]>) -> Corners<3> {
     let finite = |x: f64| if x.is_finite() { x } else { f64::NAN };
     let ends = bounds(points.map(|point| point.map(finite)));

@@ -5,7 +5,7 @@ use sph_core::{Access, Field, Scalar, Stage, fields, stage};
 use sph_kernels::Sampler;
 use sph_neighbours::{Around, Values, World, walk_into};
 
-/// Distance of a particle from the interface of its phase; the support's radius where there is none in reach.
+/// Distance of a particle from the interface of its phase; the support's radius without an interface in reach.
 pub const INTERFACE_DISTANCE: Field<Scalar> =
     Field::new("interface_distance", "m", "distance from the next phase");
 

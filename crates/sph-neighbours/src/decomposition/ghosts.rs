@@ -4,7 +4,7 @@ use sph_core::Vect;
 
 use crate::{CellGrid, Domain, World};
 
-/// Lower and upper corner of a box around the particles of a rank, m; upside down where there is none.
+/// Lower and upper corner of a box around the particles of a rank, m; upside down for a rank without particles.
 pub(crate) type RankBox<const D: usize> = [Vect<D>; 2];
 
 pub(crate) fn around<'a, const D: usize>(places: impl Iterator<Item = &'a Vect<D>>) -> RankBox<D> {

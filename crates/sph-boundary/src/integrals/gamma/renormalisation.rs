@@ -155,7 +155,7 @@ impl Renormalisation2d {
         let (mut kernel, mut gamma, mut smooth) = (zero, zero, zero);
         for knot in &self.knots {
             let rho = L::splat(knot.radius);
-            // Half of the chord that the disc cuts out of the line; where there is none, nothing is left of a segment.
+            // Half of the chord that the disc cuts out of the line; without a chord the segment is out of reach.
             let reach = ((rho - depth).max(zero) * (rho + depth)).sqrt();
             let inside = [rho - q1, rho - q2];
             let clipped = |inside: L, y: L, q: L, at: L| End {
