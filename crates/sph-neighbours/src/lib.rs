@@ -8,7 +8,7 @@
 //!   form, called once per cluster of particles and never per pair.
 //! * [`interactions`] is the sweep that sums all terms, [`kernel_sums`] the density sum, [`lattice_sum`] what a sum
 //!   would be on a lattice.
-//! * [`decomposition`] divides particles between ranks.
+//! * [`decomposition`] divides particles between ranks; [`prelude`] has the imports of a pair term.
 //!
 //! Each particle sums its own neighbourhood in the order of its list: no atomics, and the same
 //! bits for any number of threads.
@@ -22,6 +22,7 @@ mod lanes;
 mod lists;
 mod loads;
 mod pairs;
+pub mod prelude;
 mod terms;
 mod walls;
 mod world;

@@ -1,10 +1,6 @@
 //! A pair force from outside, in lanes: `[term.artificial-viscosity]`.
 
-use sph_core::{Vect, fields, plugin};
-use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, Particles, Rates, TermEntry, add_scaled, dot, minus, pair_sum,
-    pair_term,
-};
+use sph_neighbours::prelude::*;
 
 /// a = α c h Σ_b m_b µ_ab/ρ̄ ∇w_ab where particles approach, µ_ab = u_ab·r_ab/(r² + h²/100); nothing at walls.
 #[plugin(TermEntry [2, 3], "artificial-viscosity", "friction of particles that approach each other",

@@ -3,10 +3,9 @@
 use sph_contribution::{
     Contribution, Limiter, Offer, OwnColumn, Refusal, Report, Setting, contribution_kind,
 };
-use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit, fields, plugin};
-use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, World, pair_term,
-};
+use sph_core::{Access, Evolved, Field, Scalar, StepError, StepLimit};
+use sph_neighbours::World;
+use sph_neighbours::prelude::*;
 
 contribution_kind!(
     /// What diffuses through a fluid.
