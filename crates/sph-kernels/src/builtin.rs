@@ -8,7 +8,7 @@ macro_rules! kernels {
     ($($(#[$doc:meta])* $kernel:ident, $name:literal, $summary:literal, $source:literal, $shape:expr;)+) => {
         $($(#[$doc])*
         pub fn $kernel() -> PolynomialKernel {
-            PolynomialKernel::new($name, $source, $shape)
+            PolynomialKernel::new($name, $shape)
         })+
 
         /// All kernels of this crate, ready to be registered under their names.

@@ -1,6 +1,5 @@
 //! The role of a kernel, a shape of compact support; one of coefficients alone, and the sampler of any other.
 
-use std::borrow::Cow;
 use std::fmt::Debug;
 
 use crate::moments::sphere;
@@ -16,11 +15,10 @@ use crate::{PiecewisePolynomial, Sampler, polynomial_sampler};
 /// use sph_kernels::{Kernel, Sampler, ScalarSampler};
 ///
 /// #[derive(Clone, Debug)]
-/// struct Gaussian;
+/// struct Gaussian; // Gingold & Monaghan (1977), cut at 3 h
 ///
 /// impl Kernel for Gaussian {
 ///     fn name(&self) -> &str { "gaussian" }
-///     fn source(&self) -> &str { "Gingold & Monaghan (1977), cut at 3 h" }
 ///     fn support(&self) -> f64 { 3.0 }
 ///     fn value(&self, q: f64) -> f64 { if q < 3.0 { (-q * q).exp() } else { 0.0 } }
 ///     fn derivative(&self, q: f64) -> f64 { -2.0 * q * self.value(q) }
@@ -36,9 +34,6 @@ use crate::{PiecewisePolynomial, Sampler, polynomial_sampler};
 pub trait Kernel: Send + Sync + Debug {
     /// Name in scene files, lower case with hyphens.
     fn name(&self) -> &str;
-
-    /// Source of the kernel: paper, equation, DOI.
-    fn source(&self) -> &str;
 
     /// Support radius over h.
     fn support(&self) -> f64;
@@ -76,21 +71,20 @@ pub trait Kernel: Send + Sync + Debug {
     }
 }
 
-/// A kernel given by a name, a source and its shape.
+/// A kernel given by a name and its shape.
 ///
 /// ```
 /// use sph_kernels::{Kernel, PiecewisePolynomial, PolynomialKernel, algebra};
 ///
-/// // Lucy (1977): (1 + 3q)(1 − q)³ on [0, 1), σ₂ = 5/π.
+/// // Lucy (1977), doi:10.1086/112164: (1 + 3q)(1 − q)³ on [0, 1), σ₂ = 5/π.
 /// let piece = algebra::product(&[1.0, 3.0], &algebra::power(&[1.0, -1.0], 3));
 /// let shape = PiecewisePolynomial { breaks: vec![0.0, 1.0], pieces: vec![piece] };
-/// let lucy = PolynomialKernel::new("lucy", "Lucy (1977), doi:10.1086/112164", shape);
+/// let lucy = PolynomialKernel::new("lucy", shape);
 /// assert!((lucy.normalisation(2) - 5.0 / std::f64::consts::PI).abs() < 1e-15);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolynomialKernel {
-    name: Cow<'static, str>,
-    source: Cow<'static, str>,
+    name: &'static str,
     shape: PiecewisePolynomial,
 }
 
@@ -99,20 +93,11 @@ impl PolynomialKernel {
     ///
     /// # Panics
     /// If [`PiecewisePolynomial::check`] refuses the shape.
-    pub fn new(
-        name: impl Into<Cow<'static, str>>,
-        source: impl Into<Cow<'static, str>>,
-        shape: PiecewisePolynomial,
-    ) -> Self {
-        let (name, source) = (name.into(), source.into());
+    pub fn new(name: &'static str, shape: PiecewisePolynomial) -> Self {
         if let Err(reason) = shape.check() {
             panic!("kernel {name}: {reason}");
         }
-        Self {
-            name,
-            source,
-            shape,
-        }
+        Self { name, shape }
     }
 
     /// The shape f(q).
@@ -123,10 +108,7 @@ impl PolynomialKernel {
 
 impl Kernel for PolynomialKernel {
     fn name(&self) -> &str {
-        &self.name
-    }
-    fn source(&self) -> &str {
-        &self.source
+        self.name
     }
     fn support(&self) -> f64 {
         self.shape.support()

@@ -55,16 +55,6 @@ impl PiecewisePolynomial {
     pub fn normalisation(&self, dimension: usize) -> f64 {
         1.0 / (sphere(dimension) * self.moment(dimension as i32 - 1))
     }
-
-    /// Second moment per axis over h²: σ²/h² = ∫ w x² dV / h² = ∫ f q^(d+1) dq / (d ∫ f q^(d−1) dq).
-    ///
-    /// # Panics
-    /// If the dimension is not 1, 2 or 3.
-    pub fn second_moment(&self, dimension: usize) -> f64 {
-        sphere(dimension); // for its panic
-        let d = dimension as i32;
-        self.moment(d + 1) / (f64::from(d) * self.moment(d - 1))
-    }
 }
 
 /// Surface of the unit sphere in d dimensions: 2, 2π, 4π.

@@ -13,13 +13,6 @@ pub const MOST: usize = 8;
 #[repr(align(64))]
 pub struct Lanes<const N: usize>([f64; N]);
 
-impl<const N: usize> From<[f64; N]> for Lanes<N> {
-    #[inline(always)]
-    fn from(numbers: [f64; N]) -> Self {
-        Lanes(numbers)
-    }
-}
-
 macro_rules! binary {
     ($($trait:ident $f:ident $op:tt;)*) => {
         $(impl<const N: usize> $trait for Lanes<N> {

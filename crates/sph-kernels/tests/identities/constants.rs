@@ -100,31 +100,9 @@ fn integrals_add_up() {
 }
 
 #[test]
-fn second_moments() {
-    let wendland = by_name("wendland-c2").expect("built in");
-    for (d, exact) in (1..).zip([2.0 / 7.0, 5.0 / 18.0, 4.0 / 15.0]) {
-        let error = wendland.shape().second_moment(d) - exact;
-        assert!(
-            error.abs() < 1e-15,
-            "Wendland C2 {d}D: σ²/h² off by {error:e}"
-        );
-    }
-    // A B-spline of order n is the sum of n uniform variables of variance 1/12.
-    for (name, n) in [
-        ("cubic-spline", 4.0),
-        ("quartic-spline", 5.0),
-        ("quintic-spline", 6.0),
-    ] {
-        let error = by_name(name).expect("built in").shape().second_moment(1) - n / 12.0;
-        assert!(error.abs() < 1e-15, "{name}: σ²/h² off by {error:e}");
-    }
-}
-
-#[test]
 fn names_are_found() {
     for kernel in builtin() {
         assert_eq!(by_name(kernel.name()).as_ref(), Some(&kernel));
-        assert!(!kernel.source().is_empty());
     }
     assert_eq!(by_name("wendland"), None);
 }

@@ -160,7 +160,7 @@ proptest! {
         pieces[0][0] += 10.0; // so that the volume is not 0
         let shape = PiecewisePolynomial { breaks, pieces };
         prop_assume!(shape.moment(1).abs() > 0.1);
-        let kernel = PolynomialKernel::new("any", "random", shape);
+        let kernel = PolynomialKernel::new("any", shape);
         let sampler = kernel.sampler(2, 0.5);
         let slow = ScalarSampler::new(kernel.clone(), 2, 0.5);
         let r2: Vec<f64> = places.iter().map(|x| (x * sampler.support_radius()).powi(2)).collect();

@@ -14,9 +14,6 @@ impl Kernel for Gaussian {
     fn name(&self) -> &str {
         "gaussian"
     }
-    fn source(&self) -> &str {
-        "Gingold & Monaghan (1977)"
-    }
     fn support(&self) -> f64 {
         3.0
     }
