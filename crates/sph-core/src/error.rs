@@ -20,18 +20,8 @@ pub enum FieldError {
 
 /// A set of stages that cannot be put in order.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum PlanError {
-    /// A field that no stage writes.
-    #[error("field `{0}`, needed by {1}, is written by no stage of this scene")]
-    NoWriter(&'static str, String),
-    /// Two stages that write the same field.
-    #[error("field `{0}` is written by both {1} and {2}: choose one of them")]
-    TwoWriters(&'static str, String, String),
-    /// Stages that wait for each other.
-    #[error("the stages {0} wait for each other's fields")]
-    Cycle(String),
-}
+#[error("{0}")]
+pub struct PlanError(pub String);
 
 /// A plugin that cannot be found or built.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -27,15 +27,19 @@ pub fn plan(
     let access: Vec<_> = stages.iter().map(|s| s.access()).collect();
     let is_source = |f: &AnyField| sources.contains(f);
     let writer = |field: &AnyField, reader: &str| -> Result<usize, PlanError> {
-        let mut found = (0..stages.len()).filter(|&s| access[s].writes.contains(field));
-        let missing = || PlanError::NoWriter(field.name, reader.to_string());
-        let first = found.next().ok_or_else(missing)?;
-        match found
-            .next()
-            .map(|second| [first, second].map(|s| stages[s].name()))
-        {
-            None => Ok(first),
-            Some([first, second]) => Err(PlanError::TwoWriters(field.name, first, second)),
+        let found = (0..stages.len()).filter(|&s| access[s].writes.contains(field));
+        let name = field.name;
+        match found.collect::<Vec<_>>()[..] {
+            [] => Err(PlanError(format!(
+                "field `{name}`, needed by {reader}, is written by no stage of this scene"
+            ))),
+            [writer] => Ok(writer),
+            [first, second, ..] => {
+                let [first, second] = [first, second].map(|s| stages[s].name());
+                Err(PlanError(format!(
+                    "field `{name}` is written by both {first} and {second}: choose one of them"
+                )))
+            }
         }
     };
 
@@ -75,7 +79,10 @@ pub fn plan(
     let stuck = (0..stages.len()).filter(|&s| needed[s] && !done[s]);
     let stuck: Vec<_> = stuck.map(|s| stages[s].name()).collect();
     if !stuck.is_empty() {
-        return Err(PlanError::Cycle(stuck.join(", ")));
+        let stuck = stuck.join(", ");
+        return Err(PlanError(format!(
+            "the stages {stuck} wait for each other's fields"
+        )));
     }
     let pruned = (0..stages.len()).filter(|&s| !needed[s]).collect();
     Ok(Plan { order, pruned })
@@ -123,16 +130,13 @@ mod tests {
     #[test]
     fn names_what_is_missing_double_or_circular() {
         let c = Work("c", Access::none().here(B).writes(C));
-        let missing = plan(&[&c], &[C.any()], &[]).unwrap_err();
-        assert!(
-            missing.to_string().contains("`b`, needed by c"),
-            "{missing}"
-        );
+        let told = |stages: &[&dyn Declares], sources: &[AnyField]| {
+            plan(stages, &[C.any()], sources).unwrap_err().to_string()
+        };
+        assert!(told(&[&c], &[]).contains("`b`, needed by c"));
         let other = Work("other c", Access::none().writes(C));
-        let double = plan(&[&c, &other], &[C.any()], &[B.any()]).unwrap_err();
-        assert!(matches!(double, PlanError::TwoWriters("c", ..)));
+        assert!(told(&[&c, &other], &[B.any()]).contains("written by both c and other c"));
         let b = Work("b", Access::none().here(C).writes(B));
-        let cycle = plan(&[&c, &b], &[C.any()], &[]).unwrap_err();
-        assert!(matches!(cycle, PlanError::Cycle(_)));
+        assert!(told(&[&c, &b], &[]).contains("wait for each other"));
     }
 }
