@@ -42,20 +42,14 @@ impl<T> Deref for PoolGuard<'_, T> {
     type Target = T;
     #[inline(always)]
     fn deref(&self) -> &T {
-        match &self.item {
-            Some(item) => item,
-            None => unreachable!("it goes back when it is dropped"),
-        }
+        self.item.as_deref().expect("given back when dropped")
     }
 }
 
 impl<T> DerefMut for PoolGuard<'_, T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut T {
-        match &mut self.item {
-            Some(item) => item,
-            None => unreachable!("it goes back when it is dropped"),
-        }
+        self.item.as_deref_mut().expect("given back when dropped")
     }
 }
 
