@@ -1,16 +1,7 @@
 //! Several fields at a time.
 
 use crate::field::AnyField;
-use crate::{Field, FieldError, Kind};
-
-/// A holder of columns.
-pub trait Columns<const D: usize> {
-    /// The entries of a column.
-    ///
-    /// # Errors
-    /// If the column was not declared, or it has another type; as everywhere below.
-    fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError>;
-}
+use crate::{Field, FieldError, Kind, Store};
 
 /// A field, or a tuple of fields.
 pub trait FieldList {
@@ -19,10 +10,10 @@ pub trait FieldList {
     /// Calls `each` for every field, in order.
     fn for_each(self, each: impl FnMut(AnyField));
     /// Looks their columns up, in the same order.
-    fn items<const D: usize>(
-        self,
-        columns: &impl Columns<D>,
-    ) -> Result<Self::Items<'_, D>, FieldError>;
+    ///
+    /// # Errors
+    /// If a column was not declared, or it has another type.
+    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError>;
 }
 
 impl<K: Kind> FieldList for Field<K> {
@@ -30,11 +21,8 @@ impl<K: Kind> FieldList for Field<K> {
     fn for_each(self, mut each: impl FnMut(AnyField)) {
         each(self.any());
     }
-    fn items<const D: usize>(
-        self,
-        columns: &impl Columns<D>,
-    ) -> Result<Self::Items<'_, D>, FieldError> {
-        columns.column(self)
+    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError> {
+        store.get(self)
     }
 }
 
@@ -48,10 +36,10 @@ macro_rules! tuple {
             }
             fn items<const D: usize>(
                 self,
-                columns: &impl Columns<D>,
+                store: &Store<D>,
             ) -> Result<Self::Items<'_, D>, FieldError> {
                 let ($($field),+) = self;
-                Ok(($(columns.column($field)?),+))
+                Ok(($(store.get($field)?),+))
             }
         }
     };

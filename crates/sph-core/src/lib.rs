@@ -83,7 +83,7 @@ pub use crate::{
         AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
         unit_suffix,
     },
-    field_list::{Columns, FieldList},
+    field_list::FieldList,
     kinds::{
         FlowNature, LawNature, LawNatures, Place, PluginInfo, PluginKind, SuitedPlugin, Suits,
         Work, kind_of, kinds,
@@ -93,7 +93,6 @@ pub use crate::{
         Contract, Makes, Parameter, PluginChoice, Registry, node_of, parameters, plugins_of,
         schema_of, typed,
     },
-    saved::Saved,
     stage::{Access, Declares, Stage, stage},
     store::{Inserted, Plain, Removed, Role, Store},
 };

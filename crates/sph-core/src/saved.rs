@@ -1,45 +1,20 @@
 //! Copies of the memory of a store, to go back to.
 
-use crate::field::Column;
-use crate::{Field, FieldError, Inserted, Kind, Removed, Role, Store};
-
-/// Copies of all [`State`](Role::State) columns of a store, in the order the particles had.
-#[derive(Clone, Debug, Default)]
-pub struct Saved<const D: usize> {
-    len: usize,
-    removed: Vec<Removed>,
-    inserted: Inserted,
-    columns: Vec<(&'static str, Column<D>)>,
-}
-
-impl<const D: usize> Saved<D> {
-    fn column(&self, name: &str) -> Option<&Column<D>> {
-        let found = self.columns.iter().find(|(n, _)| *n == name);
-        found.map(|(_, column)| column)
-    }
-
-    /// The copy of a column; empty where nothing has been saved.
-    pub fn get<K: Kind>(&self, field: Field<K>) -> &[K::Item<D>] {
-        let items = self.column(field.name).and_then(K::items);
-        items.map_or(&[], Vec::as_slice)
-    }
-}
+use crate::store::Entry;
+use crate::{FieldError, Role, Store};
 
 impl<const D: usize> Store<D> {
-    /// Copies every state column; reuses the buffers.
+    /// Copies every state column into a store of its own, which keeps its buffers.
     ///
     /// # Errors
     /// If a column has changed its type since it was copied last, as everywhere below.
-    pub fn save_state(&self, saved: &mut Saved<D>) -> Result<(), FieldError> {
+    pub fn save_state(&self, saved: &mut Store<D>) -> Result<(), FieldError> {
         let state = || self.entries.iter().filter(|e| e.role == Role::State);
-        let names = saved.columns.iter().map(|c| c.0);
-        let same = state().map(|e| e.name).eq(names);
-        if !same {
-            saved.columns = state().map(|e| (e.name, e.field.shape.column(0))).collect();
+        if !state().map(|e| e.field).eq(saved.fields()) {
+            saved.entries = state().cloned().collect();
         }
-        for (entry, (_, to)) in state().zip(&mut saved.columns) {
-            let same = to.copy(&entry.column, None);
-            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
+        for (entry, to) in state().zip(&mut saved.entries) {
+            to.copy(entry, None)?;
         }
         saved.len = self.len;
         saved.removed.clone_from(&self.removed);
@@ -49,7 +24,7 @@ impl<const D: usize> Store<D> {
 
     /// Puts everything back as it was saved: particles that left come back, particles born since are gone. State
     /// columns that have come since become zero; derived ones have to be computed anew.
-    pub fn restore_state(&mut self, saved: &Saved<D>) -> Result<(), FieldError> {
+    pub fn restore_state(&mut self, saved: &Store<D>) -> Result<(), FieldError> {
         self.set_len(saved.len);
         self.removed.clone_from(&saved.removed);
         self.inserted = saved.inserted;
@@ -64,23 +39,23 @@ impl<const D: usize> Store<D> {
     /// If, besides, another number of particles was copied.
     pub fn put_state(
         &mut self,
-        saved: &Saved<D>,
+        saved: &Store<D>,
         places: Option<&[u32]>,
         wanted: impl Fn(&str) -> bool,
     ) -> Result<(), FieldError> {
         let len = self.len;
-        let state = |e: &&mut crate::store::Entry<D>| e.role == Role::State && wanted(e.name);
+        let state = |e: &&mut Entry<D>| e.role == Role::State && wanted(e.field.name);
         for entry in self.entries.iter_mut().filter(state) {
-            let Some(from) = saved.column(entry.name) else {
+            let name = entry.field.name;
+            let Ok(from) = saved.entry(name) else {
                 entry.column = entry.field.shape.column(len);
                 continue;
             };
-            let [copied, _] = from.size();
+            let [copied, _] = from.column.size();
             if places.map_or(copied, <[u32]>::len) != len {
-                return Err(FieldError::Length(entry.name, copied, len));
+                return Err(FieldError::Length(name, copied, len));
             }
-            let same = entry.column.copy(from, places);
-            same.then_some(()).ok_or(FieldError::Type(entry.name))?;
+            entry.copy(from, places)?;
         }
         Ok(())
     }
@@ -100,7 +75,7 @@ mod tests {
         store.add(fields::DENSITY, Role::Derived);
         *store.get_mut(fields::MASS).unwrap() = vec![1.0, 2.0, 3.0];
         *store.get_mut(fields::IDENTITY).unwrap() = vec![0, 1, 2];
-        let mut saved = Saved::default();
+        let mut saved = Store::default();
         store.save_state(&mut saved).unwrap();
         store.permute(Role::State, &[2, 0, 1]);
         store.get_mut(fields::MASS).unwrap().fill(9.0);

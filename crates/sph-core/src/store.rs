@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
 use crate::watch::Watch;
-use crate::{Access, Columns, Field, FieldError, FieldList, Kind, StepError, Vect};
+use crate::{Access, Field, FieldError, FieldList, Kind, StepError, Vect};
 
 /// Treatment of a column over a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,6 @@ pub enum Role {
 
 #[derive(Clone)]
 pub(crate) struct Entry<const D: usize> {
-    pub name: &'static str,
     pub field: AnyField,
     pub role: Role,
     pub column: Column<D>,
@@ -29,6 +28,15 @@ impl<const D: usize> Entry<D> {
         let mut picked = self.field.shape.column(0);
         picked.copy(&self.column, Some(slots));
         picked
+    }
+
+    /// Overwrites its column with that of another entry, or with its entries in some places.
+    ///
+    /// # Errors
+    /// If the other has another type.
+    pub fn copy(&mut self, from: &Self, places: Option<&[u32]>) -> Result<(), FieldError> {
+        let same = self.column.copy(&from.column, places);
+        same.then_some(()).ok_or(FieldError::Type(self.field.name))
     }
 }
 
@@ -79,14 +87,6 @@ pub enum Plain<'a> {
     Index(&'a [u32]),
 }
 
-impl<const D: usize> Columns<D> for Store<D> {
-    fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
-        let found = self.unwatched(field)?;
-        self.watch.read(field.name);
-        Ok(found)
-    }
-}
-
 impl<const D: usize> Store<D> {
     /// An empty store for `len` particles.
     pub fn new(len: usize) -> Self {
@@ -122,13 +122,13 @@ impl<const D: usize> Store<D> {
         }
     }
 
-    fn entry(&self, name: &'static str) -> Result<&Entry<D>, FieldError> {
-        let found = self.entries.iter().find(|e| e.name == name);
+    pub(crate) fn entry(&self, name: &'static str) -> Result<&Entry<D>, FieldError> {
+        let found = self.entries.iter().find(|e| e.field.name == name);
         found.ok_or(FieldError::Missing(name))
     }
 
     fn column_mut(&mut self, name: &'static str) -> Result<&mut Column<D>, FieldError> {
-        let found = self.entries.iter_mut().find(|e| e.name == name);
+        let found = self.entries.iter_mut().find(|e| e.field.name == name);
         Ok(&mut found.ok_or(FieldError::Missing(name))?.column)
     }
 
@@ -155,11 +155,10 @@ impl<const D: usize> Store<D> {
 
     /// The same for a field whose type is forgotten.
     pub fn add_any(&mut self, field: AnyField, role: Role) {
-        match self.entries.iter_mut().find(|e| e.name == field.name) {
+        match self.entries.iter_mut().find(|e| e.field == field) {
             Some(entry) if role == Role::State => entry.role = Role::State,
             Some(_) => {}
             None => self.entries.push(Entry {
-                name: field.name,
                 field,
                 role,
                 column: field.shape.column(self.len),
@@ -169,7 +168,7 @@ impl<const D: usize> Store<D> {
 
     /// True if a column of that name is allocated.
     pub fn has(&self, name: &str) -> bool {
-        self.entries.iter().any(|e| e.name == name)
+        self.entries.iter().any(|e| e.field.name == name)
     }
 
     /// The entries of a column.
@@ -177,7 +176,9 @@ impl<const D: usize> Store<D> {
     /// # Errors
     /// If the column was not declared, or it has another type; as everywhere below.
     pub fn get<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
-        self.column(field)
+        let found = self.unwatched(field)?;
+        self.watch.read(field.name);
+        Ok(found)
     }
 
     /// The entries of the columns of several fields in a tuple.
@@ -262,7 +263,7 @@ impl<const D: usize> Store<D> {
                     (6, Plain::Real(v.iter().flat_map(|t| t.0).collect()))
                 }
             };
-            (e.name, e.field.unit, e.role, components, plain)
+            (e.field.name, e.field.unit, e.role, components, plain)
         })
     }
 

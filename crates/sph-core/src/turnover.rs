@@ -49,7 +49,7 @@ impl<const D: usize> Store<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Inserted, Role, Saved};
+    use crate::{Inserted, Role};
 
     /// Particles of these identities, each with a mass of one more.
     fn store(identities: &[u32]) -> Store<2> {
@@ -82,7 +82,7 @@ mod tests {
             ..Inserted::default()
         };
         store.inserted = given(3);
-        let mut saved = Saved::default();
+        let mut saved = Store::default();
         store.save_state(&mut saved).unwrap();
         store.take_out(&[true, false, true]);
         let slots = store.give_birth(2).unwrap();

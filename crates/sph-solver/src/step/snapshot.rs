@@ -1,7 +1,7 @@
 //! The state before a step, to fall back on when the step fails.
 
 use sph_boundary::{Wall, WallStates};
-use sph_core::{Field, FieldError, Recall, Saved, Scalar, Slots, Store, Vect, fields};
+use sph_core::{Field, FieldError, Recall, Scalar, Slots, Store, Vect, fields};
 use sph_neighbours::{WallForce, World};
 
 pub(crate) type MovedWalls<'a, const D: usize> = (
@@ -12,7 +12,7 @@ pub(crate) type MovedWalls<'a, const D: usize> = (
 /// All columns that carry history, in the order the particles had, and the clock.
 #[derive(Default)]
 pub struct Snapshot<const D: usize> {
-    columns: Saved<D>,
+    columns: Store<D>,
     time: f64,
     /// The step before, s.
     dt: f64,
@@ -48,15 +48,15 @@ impl<const D: usize> Snapshot<D> {
 
     /// The earlier place of the particle of a number.
     pub fn position_of(&self, number: u32) -> Option<Vect<D>> {
-        let identity = self.columns.get(fields::IDENTITY);
+        let identity = self.columns.get(fields::IDENTITY).ok()?;
         let place = identity.iter().position(|i| *i == number)?;
-        self.columns.get(fields::POSITION).get(place).copied()
+        self.columns.get(fields::POSITION).ok()?.get(place).copied()
     }
 
     /// The place of every present particle in the copy; `None` if the order is the same.
     pub(crate) fn places(&self, free: &Store<D>) -> Result<Option<Vec<u32>>, FieldError> {
         let now = free.get(fields::IDENTITY)?;
-        let then = self.columns.get(fields::IDENTITY);
+        let then = self.columns.get(fields::IDENTITY)?;
         if now == then {
             return Ok(None);
         }
