@@ -37,39 +37,17 @@ pub fn by_phase<T: Send>(
     column: &mut [T],
     work: impl Fn(usize, Range<usize>, &mut [T]) + Sync,
 ) {
-    each_block(column, BATCH, &|k, part| {
-        let from = k * BATCH;
-        for (number, run) in runs(phase, from, part.len()) {
-            let own = run.start - from..run.end - from;
-            work(number, run, &mut part[own]);
+    each_block(column, BATCH, &|k, mut part| {
+        let mut from = k * BATCH;
+        let Some(phase) = phase else {
+            return work(0, from..from + part.len(), part);
+        };
+        for run in phase[from..from + part.len()].chunk_by(|a, b| a == b) {
+            let own = part.split_off_mut(..run.len()).unwrap_or_default();
+            work(run[0] as usize, from..from + run.len(), own);
+            from += run.len();
         }
     });
-}
-
-/// The runs of one phase within a batch that starts at `from`, with the number of their phase;
-/// one run where there is no phase column.
-fn runs(
-    phase: Option<&[u32]>,
-    from: usize,
-    len: usize,
-) -> impl Iterator<Item = (usize, Range<usize>)> {
-    let mut next = from;
-    std::iter::from_fn(move || {
-        let (start, end) = (next, from + len);
-        if start >= end {
-            return None;
-        }
-        let (law, stop) = match phase {
-            None => (0, end),
-            Some(phase) => {
-                let own = phase[start];
-                let other = phase[start..end].iter().position(|p| *p != own);
-                (own as usize, other.map_or(end, |k| start + k))
-            }
-        };
-        next = stop;
-        Some((law, start..stop))
-    })
 }
 
 #[cfg(test)]
@@ -77,11 +55,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_cover_a_batch_phase_by_phase() {
-        let phase = [0, 0, 1, 1, 1, 0];
-        let all: Vec<_> = runs(Some(&phase), 1, 5).collect();
-        assert_eq!(all, [(0, 1..2), (1, 2..5), (0, 5..6)]);
-        assert_eq!(runs(None, 3, 4).collect::<Vec<_>>(), [(0, 3..7)]);
-        assert_eq!(runs(Some(&phase), 6, 0).count(), 0);
+    fn runs_cover_a_column_phase_by_phase() {
+        let mut phase = vec![0; 2 * BATCH];
+        phase[BATCH - 1..BATCH + 2].fill(1);
+        let mut column: Vec<usize> = (0..phase.len()).collect();
+        by_phase(Some(&phase), &mut column, |law, run, part| {
+            assert!(run.clone().eq(part.iter().copied()));
+            part.fill(law);
+        });
+        assert!(
+            column
+                .iter()
+                .zip(&phase)
+                .all(|(law, phase)| *law == *phase as usize)
+        );
+        by_phase(None, &mut column, |law, run, _| {
+            assert!(law == 0 && run.len() == BATCH)
+        });
     }
 }
