@@ -5,22 +5,21 @@ use std::ops::Range;
 use sph_core::Vect;
 use thiserror::Error;
 
-/// Errors of a division by bisection.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum DecompositionError {
-    /// No rank at all.
-    #[error("there must be a rank at least")]
-    NoRanks,
-    /// More ranks than there is to own.
-    #[error("{0} ranks for {1} particles: some would own nothing")]
-    TooManyRanks(usize, usize),
-    /// Lists that do not fit.
-    #[error("{0} costs for {1} particles")]
-    Length(usize, usize),
-    /// A particle with a place or a cost that is not a number, or a cost below zero.
-    #[error("particle {0} has a place or a cost that cannot be divided")]
-    NotFinite(usize),
+/// A division of particles that is impossible.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct DecompositionError(pub String);
+
+/// Refuses no rank, and more ranks than particles.
+pub(crate) fn check_ranks(ranks: usize, particles: usize) -> Result<(), DecompositionError> {
+    let fault = match ranks {
+        0 => "there must be a rank at least".into(),
+        _ if ranks > particles => {
+            format!("{ranks} ranks for {particles} particles: some would own nothing")
+        }
+        _ => return Ok(()),
+    };
+    Err(DecompositionError(fault))
 }
 
 /// The owner of every particle: the set is cut across its longest axis so that both sides have the cost of their ranks, and
@@ -35,14 +34,10 @@ pub fn bisect<const D: usize>(
     ranks: usize,
 ) -> Result<Vec<u32>, DecompositionError> {
     let particles = places.len();
-    if ranks == 0 {
-        return Err(DecompositionError::NoRanks);
-    }
-    if ranks > particles {
-        return Err(DecompositionError::TooManyRanks(ranks, particles));
-    }
+    check_ranks(ranks, particles)?;
     if costs.len() != particles {
-        return Err(DecompositionError::Length(costs.len(), particles));
+        let fault = format!("{} costs for {particles} particles", costs.len());
+        return Err(DecompositionError(fault));
     }
     check(places, costs)?;
     let mut all: Vec<u32> = (0..particles as u32).collect();
@@ -61,10 +56,13 @@ pub(crate) fn check<const D: usize>(
     costs: &[f64],
 ) -> Result<(), DecompositionError> {
     let whole = |k: &usize| places[*k].iter().all(|x| x.is_finite()) && costs[*k] >= 0.0;
-    match (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
-        Some(particle) => Err(DecompositionError::NotFinite(particle)),
-        None => Ok(()),
-    }
+    let fault = match (0..places.len()).find(|k| !whole(k) || costs[*k].is_infinite()) {
+        Some(particle) => {
+            format!("particle {particle} has a place or a cost that cannot be divided")
+        }
+        None => return Ok(()),
+    };
+    Err(DecompositionError(fault))
 }
 
 struct Cutter<'a, const D: usize> {
@@ -147,22 +145,16 @@ mod tests {
     fn impossible_divisions_are_refused() {
         let places = lattice();
         let costs = vec![1.0; places.len()];
-        let told = |places: &[Vector2<f64>], costs: &[f64], ranks| {
-            bisect(places, costs, ranks).expect_err("an error")
+        let told = |costs: &[f64], ranks| {
+            let refused = bisect(&places, costs, ranks);
+            refused.expect_err("an error").to_string()
         };
-        assert_eq!(told(&places, &costs, 0), DecompositionError::NoRanks);
-        assert!(
-            told(&places[..3], &costs[..3], 4)
-                .to_string()
-                .contains("own nothing")
-        );
-        assert!(matches!(
-            told(&places, &costs[1..], 2),
-            DecompositionError::Length(..)
-        ));
+        assert!(told(&costs, 0).contains("a rank at least"));
+        assert!(told(&costs, 1201).contains("own nothing"));
+        assert!(told(&costs[1..], 2).contains("1199 costs"));
         let mut broken = costs.clone();
         broken[7] = f64::NAN;
-        assert_eq!(told(&places, &broken, 2), DecompositionError::NotFinite(7));
+        assert!(told(&broken, 2).contains("particle 7 "));
         // Particles on one place go by their index.
         let same = vec![Vector2::new(1.0, 1.0); 8];
         assert_eq!(

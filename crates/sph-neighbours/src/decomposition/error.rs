@@ -1,6 +1,5 @@
-//! Errors between ranks, and limits of their particles.
+//! Errors between ranks.
 
-use serde::Serialize;
 use sph_core::{FieldError, StepError};
 use thiserror::Error;
 
@@ -31,15 +30,4 @@ impl From<PartError> for StepError {
             other => StepError::stage("ranks", other.to_string()),
         }
     }
-}
-
-/// Particles of a rank.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct RankParticles {
-    /// That it owns.
-    pub own: usize,
-    /// Copies of others'.
-    pub ghosts: usize,
-    /// Its own that others have copies of, each as often as it is sent.
-    pub sent: usize,
 }

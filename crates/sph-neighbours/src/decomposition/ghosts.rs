@@ -1,6 +1,9 @@
 //! Particles of which other ranks need copies.
 
-use sph_core::Vect;
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use sph_core::{FieldError, Vect, fields};
 
 use crate::{CellGrid, Domain, World};
 
@@ -118,4 +121,29 @@ impl<'a, const D: usize> Needs<'a, D> {
         let needed = |k: &usize| offered(*k) && self.at(&places[*k], rank);
         (0..places.len()).filter(needed).map(|k| k as u32).collect()
     }
+}
+
+/// Number of copies that each rank has from each of the others, where every particle of a world has an owner; `rings` is
+/// how often a stage goes from particles to their neighbours. Copies are of particles within reach of the box around a
+/// rank's own, or of a wall that one of its own touches.
+///
+/// # Errors
+/// If there is no position column.
+pub fn ghosts_by_owner<const D: usize>(
+    world: &World<D>,
+    owners: &[u32],
+    ranks: usize,
+    rings: usize,
+) -> Result<Vec<BTreeMap<u32, usize>>, FieldError> {
+    let places = world.free.get(fields::POSITION)?;
+    let needs = Needs::new(world, rings);
+    let copies = |rank: usize| {
+        let around = around_own(places, owners, rank);
+        let mut copies = BTreeMap::new();
+        for ghost in needs.slots(places, &around, |k| owners[k] as usize != rank) {
+            *copies.entry(owners[ghost as usize]).or_default() += 1;
+        }
+        copies
+    };
+    Ok((0..ranks).into_par_iter().map(copies).collect())
 }

@@ -9,9 +9,10 @@ use std::sync::{Arc, PoisonError};
 
 use sph_core::{AnyField, Role, Store, Vect, fields};
 
+use crate::decomposition::bisect::check_ranks;
 use crate::decomposition::ghosts::{Needs, RankBox, around, around_own};
 use crate::decomposition::link::{Link, OWNER, Partner, Partners};
-use crate::decomposition::{Cuts, DecompositionError, PartError, RankParticles, Thread, Transport};
+use crate::decomposition::{Cuts, PartError, Thread, Transport};
 use crate::{Extent, World};
 
 /// Rebuilt lists between two checks of the parts.
@@ -55,13 +56,9 @@ impl<const D: usize> Parts<D> {
         let (rank, ranks) = (transport.rank() as u32, transport.ranks());
         let reference = world.lists.reference.clone();
         let particles = reference.len();
-        if ranks > particles {
-            return Err(DecompositionError::TooManyRanks(ranks, particles).into());
-        }
-        let cuts = match Thread::communicator(1).first() {
-            Some(alone) => Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?,
-            None => return Err(DecompositionError::NoRanks.into()),
-        };
+        check_ranks(ranks, particles)?;
+        let alone = &Thread::communicator(1)[0];
+        let cuts = Cuts::balanced(&reference, &vec![1.0; particles], ranks, alone)?;
         let owners: Vec<u32> = reference.iter().map(|x| cuts.owner(x)).collect();
         world.free.add(OWNER, Role::State);
         world.free.set_index(OWNER.name, &owners)?;
@@ -101,16 +98,10 @@ impl<const D: usize> Parts<D> {
         }
     }
 
-    /// The division of the particles.
-    pub fn divided(&self, free: &Store<D>) -> RankParticles {
+    /// Number of ghosts that this rank has.
+    pub fn ghosts(&self) -> usize {
         let partners = self.link.partners();
-        let count = |all: &[Partner]| all.iter().map(|(_, slots)| slots.len()).sum::<usize>();
-        let ghosts = count(&partners.receives);
-        RankParticles {
-            own: free.len() - ghosts,
-            ghosts,
-            sent: count(&partners.sends),
-        }
+        partners.receives.iter().map(|(_, slots)| slots.len()).sum()
     }
 
     /// Finds the ghosts, by their owners; drops partners with nothing to share.

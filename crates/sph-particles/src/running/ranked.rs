@@ -158,10 +158,10 @@ impl<const D: usize> Running<'_, D> {
         };
         let near = self.around;
         let solved: usize = self.counters.stage_bytes.iter().sum();
-        let (divided, traffic) = (parts.divided(&flow.world.free), parts.traffic());
+        let (ghosts, traffic) = (parts.ghosts(), parts.traffic());
         let own = [
-            divided.own as f64,
-            divided.ghosts as f64,
+            (flow.world.free.len() - ghosts) as f64,
+            ghosts as f64,
             traffic.messages as f64 / steps,
             traffic.bytes as f64 / steps,
             traffic.moved as f64,

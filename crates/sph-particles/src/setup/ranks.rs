@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sph_core::{Access, Declares, System, fields};
-use sph_neighbours::decomposition::{Halo, bisect};
+use sph_neighbours::decomposition::{bisect, ghosts_by_owner};
 use sph_scene::Scene;
 use sph_solver::step::costs;
 use sph_solver::{Flow, SolverError};
@@ -68,7 +68,7 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let places = world.free.get(fields::POSITION)?;
     let costs = costs(world);
     let owners = bisect(places, &costs, ranks).map_err(|e| SolverError::at("", e.to_string()))?;
-    let halo = Halo::new(world, &owners, ranks, flow.rings())?;
+    let ghosts = ghosts_by_owner(world, &owners, ranks, flow.rings())?;
     let (mut particles, mut cost) = (vec![0; ranks], vec![0.0; ranks]);
     for (owner, c) in owners.iter().zip(&costs) {
         particles[*owner as usize] += 1;
@@ -93,9 +93,9 @@ fn ranks_in<const D: usize>(flow: &mut Flow<D>, ranks: usize) -> Result<Ranks, S
     let one = |rank: usize| RankUse {
         particles: particles[rank],
         cost: cost[rank] / mean,
-        ghosts: halo.ghosts(rank),
-        sent: halo.sent(rank),
-        partners: halo.partners(rank),
+        ghosts: ghosts[rank].values().sum(),
+        sent: ghosts.iter().filter_map(|of| of.get(&(rank as u32))).sum(),
+        partners: ghosts[rank].keys().map(|from| *from as usize).collect(),
     };
     Ok(Ranks {
         ranks: (0..ranks).map(one).collect(),
