@@ -2,7 +2,6 @@
 
 pub(crate) mod inverse;
 pub(crate) mod kernel_sums;
-pub(crate) mod kernel_values;
 pub(crate) mod kernels;
 pub(crate) mod lattice;
 pub(crate) mod scaling;

@@ -3,13 +3,13 @@
 use sph_core::{StepError, Vect, fields};
 use sph_kernels::lanes::{Body, InLanes, Lane, MOST, dispatch_at, dot, width};
 
-use crate::kernel::kernel_values::SumScratch;
-use crate::lanes::{particles::Rows, separation::Distances};
+use crate::lanes::particles::Rows;
 use crate::lists::buffer::grow;
 use crate::lists::members::{Members, groups};
+use crate::pairs::cluster::Buffers;
 use crate::{
-    CHUNK, Clusters, Domain, HiddenPairs, LanePair, PairSum, Particles, Scaling, World, each_block,
-    minus,
+    CHUNK, Clusters, Domain, HiddenPairs, LanePair, PairSum, Particles, Surroundings, World,
+    each_block, minus,
 };
 
 /// Σ θ_b w_ab over free neighbours, wall points and the particle itself, 1/m^d; s_a s_b w_ab where walls scale the kernel.
@@ -24,70 +24,57 @@ pub fn kernel_sums<const D: usize>(
     sums: &mut [f64],
 ) -> Result<(), StepError> {
     let mut pruned = std::mem::take(&mut world.lists.spare);
-    let positions = world.free.get(fields::POSITION)?;
-    let points = &world.walls.points;
+    let around = Surroundings::new(world)?;
+    let (points, hidden) = (&world.walls.points, &world.lists.hidden);
     let kernel = &*world.kernel;
     let own = kernel.value_at_zero();
-    let scaling = Scaling::from_store(&world.free, &*world.kernel);
-    let (blocked, unseen) = (&world.lists.hidden.particles, &world.lists.hidden.points);
+    let scaling = around.scaling;
     let limit = kernel.support_radius().powi(2);
     let width = width();
-    let cluster = |room: &mut SumScratch, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
-        let domain = |i: usize| world.domain.wrapping(&positions[i], world.reach());
-        let inside = &mut room.inside;
-        inside.clear();
-        inside.resize(all.candidates.len(), false);
+    let cluster = |room: &mut Buffers<D>, all: Members<'_>, slots: &mut [u32], sums: &mut [f64]| {
+        room.inside.clear();
+        room.inside.resize(all.candidates.len(), false);
         for members in groups(all, width.lanes()) {
             let first = members.from - all.from;
-            let distances = Distances::<D, false> {
-                members,
-                positions,
-                domain: members.range().find_map(domain),
-                out: &mut room.lanes.distance2,
-                separations: &mut Vec::new(),
-            };
-            dispatch_at(width, distances);
-            let values = &mut room.lanes;
-            let needed = members.candidates.len() * width.lanes();
-            values.reserve(needed);
-            blocked.part(members, width.lanes(), &mut values.distance2);
-            let distance2 = &values.distance2[..needed];
-            let value = &mut values.value[..needed];
-            kernel.value(distance2, value);
+            let domain = members.range().find_map(|i| around.wrapping(i));
+            let places = around.position;
+            let needed = room.find::<false>(width, members, places, domain, &hidden.particles);
+            room.weigh(needed, kernel);
+            let value = &mut room.value[..needed];
             if let Some(scaling) = scaling.filter(|s| s.acts(members)) {
                 scaling.scale_pairs(width, members, value);
             }
             let total = Total {
-                distance2,
+                distance2: &room.distance2[..needed],
                 value,
                 limit,
-                inside,
+                inside: &mut room.inside,
                 sums: &mut sums[first..first + members.count],
             };
             dispatch_at(width, total);
         }
         for (k, sum) in sums.iter_mut().enumerate() {
-            *sum += scaling.map_or(own, |s| s.at(all.from + k).own_value);
-            if points.in_density() {
-                let i = all.from + k;
-                let row = world.lists.wall.candidates(i);
-                if !row.is_empty() {
-                    let x = &positions[i];
-                    let w = room.row.fill(x, &points.position, row, domain(i), kernel);
-                    let seen = |v: u32| f64::from(!unseen.has(i, v));
-                    let shares = row.iter().map(|&v| seen(v) * points.share[v as usize]);
-                    *sum += w.iter().zip(shares).map(|(w, s)| w * s).sum::<f64>();
-                }
+            let i = all.from + k;
+            *sum += scaling.map_or(own, |s| s.at(i).own_value);
+            let wall = &mut room.walls[0];
+            if points.in_density() && around.fill_wall(wall, i, around.wrapping(i), kernel) {
+                let row = wall.row();
+                let n = row.index.len();
+                grow(&mut room.value, n);
+                kernel.value(row.distance2, &mut room.value[..n]);
+                let shares = row.index.iter().map(|v| points.share[*v as usize]);
+                let parts = room.value[..n].iter().zip(shares).map(|(w, s)| w * s);
+                *sum += parts.sum::<f64>();
             }
         }
         let mut n = 0;
-        for (&j, &near) in all.candidates.iter().zip(&*inside) {
+        for (&j, &near) in all.candidates.iter().zip(&room.inside) {
             slots[n] = j;
             n += usize::from(near);
         }
         n
     };
-    pruned.fill(&world.lists.free, sums, &world.lists.pools.pruned, cluster);
+    pruned.fill(&world.lists.free, sums, &world.lists.pools.sums, cluster);
     world.lists.pruned = Some(pruned);
     Ok(())
 }
@@ -142,8 +129,8 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
     });
     let limit = kernel.support_radius().powi(2);
     each_block(out, CHUNK, &|b, out| {
-        let mut room = world.lists.pools.means.acquire();
-        let (values, inside, rows) = &mut *room;
+        let mut room = world.lists.pools.sums.acquire();
+        let (buffers, inside) = &mut *room;
         for all in list.of_block(b) {
             for members in groups(all, width.lanes()) {
                 let own = members.range();
@@ -154,14 +141,14 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                     domain: near.find_map(|x| world.domain.wrapping(x, world.reach())),
                 };
                 let n = members.candidates.len();
-                values.reserve(n * width.lanes());
+                grow(&mut buffers.distance2, n * width.lanes());
                 grow(inside, n);
                 let body = DistancesAround {
                     around: &around,
                     members,
                     limit,
                     inside: &mut inside[..n],
-                    out: &mut values.distance2,
+                    out: &mut buffers.distance2,
                 };
                 let n = dispatch_at(width, body);
                 let inside = &inside[..n];
@@ -169,22 +156,22 @@ pub fn shepard<const D: usize, S: PairSum<D>, R: Send>(
                     candidates: inside,
                     ..members
                 };
-                hidden.part(near, width.lanes(), &mut values.distance2);
+                hidden.part(near, width.lanes(), &mut buffers.distance2);
                 let needed = inside.len() * width.lanes();
-                let value = &mut values.value[..needed];
-                kernel.value(&values.distance2[..needed], value);
-                grow(rows, S::Sum::<f64>::NUMBERS);
+                buffers.weigh(needed, kernel);
+                grow(&mut buffers.sums, S::Sum::<f64>::NUMBERS);
                 let body = SumAround {
                     around: &around,
                     members,
                     inside,
-                    values: value,
+                    values: &buffers.value[..needed],
                     sum,
-                    rows: &mut *rows,
+                    rows: &mut buffers.sums,
                 };
                 dispatch_at(width, body);
                 for (lane, target) in own.enumerate() {
-                    out[target - b * CHUNK] = of(target, S::Sum::<f64>::one(rows, lane));
+                    let sum = S::Sum::<f64>::one(&buffers.sums, lane);
+                    out[target - b * CHUNK] = of(target, sum);
                 }
             }
         }

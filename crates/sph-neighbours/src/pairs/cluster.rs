@@ -47,11 +47,40 @@ pub(crate) struct Buffers<const D: usize> {
     /// Rows of free neighbours, one per member, where rows were requested.
     free: [Scratch<D>; MOST],
     pub sums: crate::lanes::particles::Rows,
+    /// Marks of candidates that some member has within its support.
+    pub inside: Vec<bool>,
     /// True if `free` is of the cluster at hand.
     rows: bool,
 }
 
 impl<const D: usize> Buffers<D> {
+    /// Distances of the members of a cluster, and separations if they are `KEPT`; returns the number of distances.
+    pub fn find<const KEPT: bool>(
+        &mut self,
+        width: Width,
+        members: Members<'_>,
+        positions: &[Vect<D>],
+        domain: Option<&Domain<D>>,
+        hidden: &HiddenPairs,
+    ) -> usize {
+        let distances = Distances::<D, KEPT> {
+            members,
+            positions,
+            domain,
+            out: &mut self.distance2,
+            separations: &mut self.separation,
+        };
+        dispatch_at(width, distances);
+        hidden.part(members, width.lanes(), &mut self.distance2);
+        members.candidates.len() * width.lanes()
+    }
+
+    /// Leaves w, 1/m^d, for the first distances; 0 beyond the support and for a particle and itself.
+    pub fn weigh<K: Sampler + ?Sized>(&mut self, distances: usize, kernel: &K) {
+        grow(&mut self.value, distances);
+        kernel.value(&self.distance2[..distances], &mut self.value[..distances]);
+    }
+
     /// Distances and kernel gradients of the members of a cluster.
     pub fn measure<K: Sampler + ?Sized>(
         &mut self,
@@ -62,16 +91,7 @@ impl<const D: usize> Buffers<D> {
         hidden: &HiddenPairs,
         kernel: &K,
     ) {
-        let distances = Distances::<D, true> {
-            members,
-            positions,
-            domain,
-            out: &mut self.distance2,
-            separations: &mut self.separation,
-        };
-        dispatch_at(width, distances);
-        hidden.part(members, width.lanes(), &mut self.distance2);
-        let needed = members.candidates.len() * width.lanes();
+        let needed = self.find::<true>(width, members, positions, domain, hidden);
         grow(&mut self.factor, needed);
         kernel.gradient_factor(&self.distance2[..needed], &mut self.factor[..needed]);
         self.rows = false;
@@ -115,26 +135,6 @@ impl<const D: usize> Cluster<'_, D> {
     #[inline(always)]
     pub fn lanes(&self) -> usize {
         self.width.lanes()
-    }
-
-    /// Squared distances, m², one number per lane for each candidate; infinite for a particle and itself.
-    #[inline(always)]
-    pub fn distance2(&self) -> &[f64] {
-        &self.buffers.distance2[..self.members.candidates.len() * self.lanes()]
-    }
-
-    /// F, 1/m^(d+2), in the same order; 0 beyond the support.
-    #[inline(always)]
-    pub fn factor(&self) -> &[f64] {
-        &self.buffers.factor[..self.members.candidates.len() * self.lanes()]
-    }
-
-    /// Leaves w, 1/m^d, in the same order in a buffer; 0 beyond the support and for a particle and itself.
-    pub(crate) fn weigh<K: Sampler + ?Sized>(&mut self, kernel: &K) {
-        let needed = self.members.candidates.len() * self.lanes();
-        let buffers = &mut *self.buffers;
-        grow(&mut buffers.value, needed);
-        kernel.value(&buffers.distance2[..needed], &mut buffers.value[..needed]);
     }
 
     /// Calls `visit` with the number and the neighbourhood of every member, one after the other.

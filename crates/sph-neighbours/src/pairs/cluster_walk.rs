@@ -133,7 +133,8 @@ pub fn walk_in_lanes<const D: usize, S: PairSum<D>, R: Send>(
         let mut room = world.lists.pools.sweeps.acquire();
         sweep.each_wanted(block, &wanted, &mut room.0, |cluster| {
             if S::VALUES {
-                cluster.weigh(&*world.kernel);
+                let distances = cluster.candidates().len() * cluster.lanes();
+                cluster.buffers.weigh(distances, &*world.kernel);
             }
             let mut rows = std::mem::take(&mut cluster.buffers.sums);
             sum_cluster(sum, cluster, &mut rows);

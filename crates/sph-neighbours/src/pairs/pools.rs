@@ -4,8 +4,6 @@ use std::ops::Range;
 
 use sph_core::{Pool, Vect};
 
-use crate::kernel::kernel_values::{SumScratch, Values};
-use crate::lanes::particles;
 use crate::pairs::cluster::Buffers;
 use crate::{CellGrid, Rates, Rows};
 
@@ -16,10 +14,8 @@ pub(crate) struct Pools<const D: usize> {
     /// Rows, with kernel values of free particles and wall points.
     pub walks: Pool<(Rows<D>, [Vec<f64>; 2])>,
     pub numbers: Pool<Vec<f64>>,
-    /// Of kernel sums, with the candidates that are kept.
-    pub pruned: Pool<(SumScratch, Vec<u32>)>,
-    /// Kernel values around a place, the particles within the support, and sums.
-    pub means: Pool<(Values, Vec<u32>, particles::Rows)>,
+    /// Of kernel sums and means, with the candidates within the support.
+    pub sums: Pool<(Buffers<D>, Vec<u32>)>,
     pub clusters: Pool<(Vec<u32>, Vec<Range<usize>>)>,
     pub grids: Pool<CellGrid<D>>,
     pub centres: Pool<Vec<Vect<D>>>,
