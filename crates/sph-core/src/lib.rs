@@ -90,7 +90,7 @@ pub use crate::{
     },
     plan::{Plan, plan},
     registry::{
-        Contract, Makes, Parameter, PluginChoice, Registry, node_of, parameters, plugins_of,
+        Build, Contract, Makes, Parameter, PluginChoice, Registry, node_of, parameters, plugins_of,
         schema_of, typed,
     },
     stage::{Access, Declares, Stage, stage},

@@ -164,6 +164,9 @@ impl PluginChoice {
     }
 }
 
+/// Builds a plugin from its table of parameters.
+pub type Build<T> = fn(&Table) -> Result<Box<T>, RegistryError>;
+
 /// A kind of plugin, its plugins built by one call of any dimension: of D, or of none of their own.
 pub trait Makes<const D: usize>: Contract {
     /// Description of a plugin of the kind.
@@ -221,13 +224,9 @@ macro_rules! contract {
             /// Data known without building.
             pub info: $crate::PluginInfo,
             /// Builds the two-dimensional form.
-            pub build_2d: Option<
-                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr<2>>, $crate::RegistryError>,
-            >,
+            pub build_2d: Option<$crate::Build<dyn $tr<2>>>,
             /// Builds the three-dimensional form.
-            pub build_3d: Option<
-                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr<3>>, $crate::RegistryError>,
-            >,
+            pub build_3d: Option<$crate::Build<dyn $tr<3>>>,
         }
         impl $entry {
             /// Builds the plugin in D dimensions from its table of parameters.
@@ -267,8 +266,7 @@ macro_rules! contract {
             /// Data known without building.
             pub info: $crate::PluginInfo,
             /// Builds the plugin from its table of parameters.
-            pub build:
-                fn(&$crate::reexport::toml::Table) -> Result<Box<dyn $tr>, $crate::RegistryError>,
+            pub build: $crate::Build<dyn $tr>,
         }
         impl<const D: usize> $crate::Makes<D> for $entry {
             type Made = dyn $tr;
