@@ -100,6 +100,15 @@ impl<const D: usize> World<D> {
         found.ok_or(FieldError::Missing(rate.name))
     }
 
+    /// Wall points that may be within the support of a particle.
+    #[inline(always)]
+    pub(crate) fn wall_candidates(&self, particle: usize) -> &[u32] {
+        match self.walls.points.in_sums() && !self.lists.wall.is_empty() {
+            true => self.lists.wall.candidates(particle),
+            false => &[],
+        }
+    }
+
     /// γ of density sums; none where it is 1.
     pub fn sum_renormalisation(&self) -> Option<&[f64]> {
         match self.walls.scales {

@@ -74,11 +74,7 @@ impl<const D: usize> World<D> {
             let (free, nearest) = within.fold((0, f64::INFINITY), |(n, least), r| {
                 (n + 1, f64::min(least, r))
             });
-            let wall = match self.walls.points.in_sums() {
-                false => &[][..],
-                true => self.lists.wall.candidates(i),
-            };
-            let wall = wall.iter();
+            let wall = self.wall_candidates(i).iter();
             let wall = wall.filter(|&&v| apart(x, &points[v as usize]) < support);
             Nearby {
                 particles: 1,

@@ -49,17 +49,13 @@ pub fn reactions<const D: usize>(
     wanted: &[bool],
 ) -> Result<Vec<WallForce<D>>, StepError> {
     let positions = world.free.get(fields::POSITION)?;
-    let (walls, lists) = (&world.walls, &world.lists.wall);
+    let walls = &world.walls;
     let sees = |i: usize| {
         let mut elements = walls.contacts.of_particle(i).elements().iter();
-        let points = if lists.is_empty() {
-            &[]
-        } else {
-            lists.candidates(i)
-        };
+        let mut points = world.wall_candidates(i).iter();
         let mut slopes = of_particle(&walls.slopes, i).iter();
         elements.any(|s| wanted[walls.elements.wall[*s as usize] as usize])
-            || (points.iter()).any(|v| wanted[walls.points.wall[*v as usize] as usize])
+            || points.any(|v| wanted[walls.points.wall[*v as usize] as usize])
             || slopes.any(|s| wanted[s.wall as usize])
     };
     let owned = world.owned();
@@ -86,11 +82,8 @@ fn image_beside_wall<const D: usize>(world: &World<D>, x: &Vect<D>, part: &WallP
     let (i, walls) = (part.particle as usize, &world.walls);
     let elements = walls.contacts.of_particle(i).elements().iter();
     let mut of_elements = elements.filter(|s| walls.elements.wall[**s as usize] == part.wall);
-    let of_points = match world.lists.wall.is_empty() {
-        true => &[],
-        false => world.lists.wall.candidates(i),
-    };
-    let mut of_points = (of_points.iter()).filter(|v| walls.points.wall[**v as usize] == part.wall);
+    let of_points = world.wall_candidates(i).iter();
+    let mut of_points = of_points.filter(|v| walls.points.wall[**v as usize] == part.wall);
     let (centres, places) = (&walls.elements.centre, &walls.points.position);
     let seen = of_elements.next().map(|s| &centres[*s as usize]);
     let seen = seen.or_else(|| of_points.next().map(|v| &places[*v as usize]));

@@ -48,14 +48,9 @@ pub fn wall_parts<const D: usize>(
     // Computed once: clusters read it again and again.
     let mut asked = vec![false; sweep.particles()];
     let mut ask = |i: usize| asked[i] = wanted(i);
-    match world.walls.points.in_sums() && !world.lists.wall.is_empty() {
-        true => (0..sweep.particles())
-            .filter(|i| {
-                !contacts.of_particle(*i).is_empty() || !world.lists.wall.candidates(*i).is_empty()
-            })
-            .for_each(&mut ask),
-        false => contacts.particles.iter().for_each(|i| ask(*i as usize)),
-    }
+    let beside =
+        |i: &usize| !contacts.of_particle(*i).is_empty() || !world.wall_candidates(*i).is_empty();
+    (0..sweep.particles()).filter(beside).for_each(&mut ask);
     let slopes = world.walls.slopes.iter();
     slopes.for_each(|slope| ask(slope.particle as usize));
     let none = Contacts::default();

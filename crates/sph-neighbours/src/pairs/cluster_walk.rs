@@ -3,20 +3,17 @@
 
 use std::ops::Range;
 
-use sph_core::{Pool, StepError};
+use sph_core::StepError;
 use sph_kernels::Sampler;
 use sph_kernels::lanes::{Body, InLanes, Lane, dispatch_at};
 
 use crate::lists::buffer::grow;
 use crate::pairs::pair_sum::sum_cluster;
-use crate::terms::sweep::{Sweep, TaskScratch};
+use crate::terms::sweep::Sweep;
 use crate::{CHUNK, Cluster, LanePair, Neighbourhood, PairSum, Particles, World, each_block};
 
 /// Goes over the clusters of a world at the present places, block by block.
-pub struct ClusterWalk<'w, const D: usize> {
-    sweep: Sweep<'w, D, dyn Sampler>,
-    pool: &'w Pool<TaskScratch<D>>,
-}
+pub struct ClusterWalk<'w, const D: usize>(Sweep<'w, D, dyn Sampler>);
 
 impl<'w, const D: usize> ClusterWalk<'w, D> {
     /// Of the particles of a world.
@@ -24,15 +21,12 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
     /// # Errors
     /// If the world has no positions, as everywhere below.
     pub fn new(world: &'w World<D>) -> Result<Self, StepError> {
-        Ok(ClusterWalk {
-            sweep: Sweep::new(world, &*world.kernel)?,
-            pool: &world.lists.pools.sweeps,
-        })
+        Ok(ClusterWalk(Sweep::new(world, &*world.kernel)?))
     }
 
     /// Number of particles.
     pub fn particles(&self) -> usize {
-        self.sweep.particles()
+        self.0.particles()
     }
 
     /// Number of blocks of [`CHUNK`] particles.
@@ -50,10 +44,10 @@ impl<'w, const D: usize> ClusterWalk<'w, D> {
         mut visit: impl FnMut(&mut S, &mut Cluster<'_, D>),
         others: impl Fn(&mut S, Range<usize>),
     ) {
-        let mut room = self.pool.acquire();
-        for members in self.sweep.clusters(block) {
+        let mut room = self.0.around.world.lists.pools.sweeps.acquire();
+        for members in self.0.clusters(block) {
             match members.range().any(&wanted) {
-                true => visit(hand, &mut self.sweep.measured(&mut room.0, members)),
+                true => visit(hand, &mut self.0.measured(&mut room.0, members)),
                 false => others(hand, members.range()),
             }
         }

@@ -58,15 +58,11 @@ impl<'w, const D: usize> Surroundings<'w, D> {
         kernel: &K,
     ) -> bool {
         row.clear();
-        let points = &self.world.walls.points;
-        let candidates = match points.in_sums() {
-            true => self.world.lists.wall.candidates(particle),
-            false => &[],
-        };
+        let candidates = self.world.wall_candidates(particle);
         if candidates.is_empty() {
             return false;
         }
-        let x = &self.position[particle];
+        let (x, points) = (&self.position[particle], &self.world.walls.points);
         row.fill(x, &points.position, candidates, NOBODY, near, kernel);
         row.hide(&self.world.lists.hidden.points, particle);
         true

@@ -193,10 +193,8 @@ pub fn accelerations_of<const D: usize>(
     })
 }
 
-pub(crate) type TaskScratch<const D: usize> = (Buffers<D>, Vec<Rates<D>>);
-
 pub(crate) struct Sweep<'a, const D: usize, K: ?Sized> {
-    around: Surroundings<'a, D>,
+    pub around: Surroundings<'a, D>,
     kernel: &'a K,
     width: Width,
 }
@@ -226,7 +224,7 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         &self,
         term: &T,
         wanted: impl Fn(usize) -> bool,
-        (buffers, rates): &'r mut TaskScratch<D>,
+        (buffers, rates): &'r mut (Buffers<D>, Vec<Rates<D>>),
         block: usize,
         (particles, start): (usize, Rates<D>),
     ) -> &'r [Rates<D>] {
