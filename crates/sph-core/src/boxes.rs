@@ -195,11 +195,7 @@ mod tests {
 
     fn numbers(tree: &BoxTree<2>, query: Corners<2>) -> Vec<usize> {
         let mut all = Vec::new();
-        let whole = tree.overlapping(query, &mut |k| {
-            all.push(k);
-            ControlFlow::<()>::Continue(())
-        });
-        assert!(whole.is_continue());
+        tree.each(query, |k| all.push(k));
         all.sort_unstable();
         all
     }

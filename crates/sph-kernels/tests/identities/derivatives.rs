@@ -30,7 +30,6 @@ fn gradients_agree_with_central_differences() {
                 let error = (sampler.at(r).1 * r - slope) * h / sampler.value_at_zero();
                 largest = largest.max(error.abs());
             }
-            println!("{} {d}D: ∇w off by {largest:e} w(0)/h", kernel.name());
             // Second order: (2·10⁻⁵)² f‴/6 with |f‴| ≤ 20 f(0), and an ulp over 4·10⁻⁵.
             assert!(largest < 2e-9, "{} {d}D: {largest:e} w(0)/h", kernel.name());
         }

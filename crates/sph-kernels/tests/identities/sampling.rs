@@ -40,10 +40,6 @@ fn slices_equal_the_plain_formula() {
             largest(&w, &plain_w) / w0,
             largest(&factor, &plain_factor) / f0,
         );
-        println!(
-            "{}: w off by {value:.1e} w(0), F by {gradient:.1e} F(0)",
-            kernel.name()
-        );
         // Not the slices but the plain formula loses digits: monomials in q cancel near the
         // support. F there stands at q = 10⁻⁸ for r = 0.
         assert!(value < 2e-13, "{}: w off by {value:e} w(0)", kernel.name());
@@ -88,7 +84,6 @@ fn slices_equal_factored_forms_to_the_last_digits() {
                 let error = (w - kernel.normalisation(d) * form(q)) / sampler.value_at_zero();
                 largest = largest.max(error.abs());
             }
-            println!("{name} {d}D: slices off by {largest:.1e} w(0)");
             // Rounding on both sides: the quintic sums 243, −192 and 15 to 66.
             assert!(
                 largest < 3e-15,

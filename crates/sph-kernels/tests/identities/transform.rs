@@ -48,7 +48,6 @@ fn wendland_functions_have_positive_transforms() {
         let kernel = by_name(name).expect("built in");
         for d in 1..=3 {
             let (k, value) = lowest(&kernel, d, to);
-            println!("{name} {d}D: lowest ŵ up to kh = {to} is {value:.3e} at kh = {k:.1}");
             assert!(value > 1e-13, "{name} {d}D: lowest ŵ {value:e} at kh = {k}");
         }
     }
@@ -60,7 +59,6 @@ fn radial_splines_have_negative_lobes() {
         let kernel = by_name(name).expect("built in");
         for d in 2..=3 {
             let (k, value) = lowest(&kernel, d, 20.0);
-            println!("{name} {d}D: lowest ŵ is {value:.3e} at kh = {k:.1}");
             assert!(value < -1e-5, "{name} {d}D: lowest ŵ {value:e} at kh = {k}");
         }
     }

@@ -37,9 +37,10 @@ impl<const D: usize> World<D> {
         Owned(self.communicator.as_ref().map(|link| link.own(&self.free)))
     }
 
-    /// Particles whose sums over neighbours are not needed; `None` if all are needed.
+    /// Particles whose sums over neighbours are not needed, because their owner sends them; `None` if all are needed.
     pub fn idle(&self) -> Option<Vec<bool>> {
-        self.communicator.as_ref()?.idle(&self.free)
+        let link = self.communicator.as_ref().filter(|link| link.rings == 1)?;
+        Some(link.own(&self.free).iter().map(|own| !own).collect())
     }
 
     /// The elements of walls that count in sums over all.

@@ -140,13 +140,6 @@ impl Link {
         owners.iter().map(|o| *o == rank).collect()
     }
 
-    /// Marks of particles that need no sum over neighbours here, because their owner sends it; `None` if all need
-    /// theirs.
-    pub(crate) fn idle<const D: usize>(&self, free: &Store<D>) -> Option<Vec<bool>> {
-        let ghosts = || self.own(free).iter().map(|own| !own).collect();
-        (self.rings == 1).then(ghosts)
-    }
-
     /// Replaces each number by its sum over all ranks, which wraps around.
     pub(crate) fn total(&self, numbers: &mut [u64]) -> Result<(), PartError> {
         self.any(false, false)?;

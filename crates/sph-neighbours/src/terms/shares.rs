@@ -12,8 +12,8 @@ pub struct TermShare<const D: usize> {
     pub name: String,
     /// Its rates.
     pub rates: Rates<D>,
-    /// The part that walls have in them: the whole less the contribution of the other particles with γ = 1.
-    pub of_walls: Rates<D>,
+    /// Acceleration by walls, m/s²: the whole less the contribution of the other particles with γ = 1.
+    pub of_walls: Vect<D>,
 }
 
 /// Contribution of every term to a particle at the state of the last sweep.
@@ -48,11 +48,7 @@ pub fn shares_at<const D: usize>(
             shares.push(TermShare {
                 name: interaction.name(),
                 rates,
-                of_walls: Rates {
-                    acceleration: rates.acceleration - fluid.acceleration,
-                    scalar: rates.scalar - fluid.scalar,
-                    more: std::array::from_fn(|k| rates.more[k] - fluid.more[k]),
-                },
+                of_walls: rates.acceleration - fluid.acceleration,
             });
             Ok(())
         })?;

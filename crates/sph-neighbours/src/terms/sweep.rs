@@ -147,7 +147,14 @@ fn sums_from<const D: usize, K: Sampler + ?Sized, T: RowTerm<D> + ?Sized>(
     let room = || world.lists.pools.sweeps.acquire();
     all.enumerate()
         .for_each_init(room, |room, (block, ((a, mut s), mut m))| {
-            let rates = sweep.block(term, &wanted, room, block, (a.len(), start));
+            let (buffers, rates) = &mut **room;
+            rates.clear();
+            rates.resize(a.len(), start);
+            sweep.each_wanted(block, &wanted, buffers, |cluster| {
+                let own = cluster.members();
+                let first = own.start - block * CHUNK;
+                term.cluster(cluster, &mut rates[first..first + own.len()]);
+            });
             let rates = rates.iter().enumerate();
             for (k, rates) in rates.filter(|(k, _)| wanted(block * CHUNK + k)) {
                 a[k] = rates.acceleration;
@@ -217,25 +224,6 @@ impl<'a, const D: usize, K: Sampler + ?Sized> Sweep<'a, D, K> {
         let lanes = self.width.lanes();
         let all = self.around.lists.of_block(block);
         all.flat_map(move |cluster| groups(cluster, lanes))
-    }
-
-    /// A term's rates of the particles of a block, from those that each starts with, in clusters with a `wanted` particle.
-    fn block<'r, T: RowTerm<D> + ?Sized>(
-        &self,
-        term: &T,
-        wanted: impl Fn(usize) -> bool,
-        (buffers, rates): &'r mut (Buffers<D>, Vec<Rates<D>>),
-        block: usize,
-        (particles, start): (usize, Rates<D>),
-    ) -> &'r [Rates<D>] {
-        rates.clear();
-        rates.resize(particles, start);
-        self.each_wanted(block, wanted, buffers, |cluster| {
-            let own = cluster.members();
-            let first = own.start - block * CHUNK;
-            term.cluster(cluster, &mut rates[first..first + own.len()]);
-        });
-        rates
     }
 
     /// Calls `visit` with the clusters of a block where anyone is `wanted`.

@@ -131,7 +131,7 @@ pub fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> 
             term: name.clone(),
             kind: kind(name).map_or(String::new(), |(_, kind)| kind.to_string()),
             acceleration: finite(rates.acceleration.norm()),
-            of_walls: finite(of_walls.acceleration.norm()),
+            of_walls: finite(of_walls.norm()),
             density_rate: finite(rates.scalar).filter(|r| *r != 0.0),
         });
     }
@@ -238,7 +238,7 @@ mod tests {
             let rates = shares.iter().map(|s| s.rates.acceleration);
             let sum = rates.fold(flow.world.gravity, |a, rate| a + rate);
             worst = worst.max((sum - whole).norm() / whole.norm());
-            let touched = shares.iter().any(|s| s.of_walls.acceleration.norm() > 0.0);
+            let touched = shares.iter().any(|s| s.of_walls.norm() > 0.0);
             let sees = !flow.world.walls.contacts.of_particle(k).is_empty();
             assert_eq!(touched, sees, "particle {k} has walls within reach");
             walls += usize::from(sees);
