@@ -1,21 +1,15 @@
 //! The lists against brute force, for random clouds in 2D and 3D, periodic or not.
 
 use proptest::prelude::*;
-use sph_core::Pool;
-use sph_core::{Role, Store, Vect, fields};
+use sph_core::{Pool, Role, SplitMix, Store, Vect, fields};
 use sph_kernels::Kernel;
 use sph_kernels::lanes::{Width, force_width};
 use sph_neighbours::{CellGrid, Clusters, Domain, World, kernel_sums};
 
 fn cloud<const D: usize>(n: usize, seed: u64) -> Vec<Vect<D>> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
-    (0..n).map(|_| Vect::from_fn(|_, _| next())).collect()
+    let mut random = SplitMix(seed);
+    let mut place = |_| Vect::from_fn(|_, _| random.unit());
+    (0..n).map(&mut place).collect()
 }
 
 fn brute<const D: usize>(x: &[Vect<D>], i: usize, reach: f64, domain: &Domain<D>) -> Vec<u32> {

@@ -5,6 +5,8 @@ use std::ops::Range;
 use sph_core::Vect;
 use thiserror::Error;
 
+use crate::decomposition::ghosts::around;
+
 /// A division of particles that is impossible.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{0}")]
@@ -101,12 +103,8 @@ impl<const D: usize> Cutter<'_, D> {
     }
 
     fn longest(&self, part: &[u32]) -> usize {
-        let first = self.places[part[0] as usize];
-        let corners = part.iter().fold((first, first), |(low, high), k| {
-            let x = &self.places[*k as usize];
-            (low.inf(x), high.sup(x))
-        });
-        (corners.1 - corners.0).imax()
+        let [low, high] = around(part.iter().map(|k| &self.places[*k as usize]));
+        (high - low).imax()
     }
 }
 

@@ -29,9 +29,6 @@ const INTERVALS: usize = 64;
 /// Ours.
 ///
 /// Walls that scale the kernel have no such part: their forces are the reactions to those on particles.
-///
-/// # Errors
-/// If the ranks cannot add.
 pub(crate) fn facing_forces<const D: usize>(
     world: &World<D>,
     wanted: &[bool],

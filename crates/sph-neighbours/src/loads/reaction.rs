@@ -67,7 +67,7 @@ pub fn reactions<const D: usize>(
     }
     let all = parts.iter().zip(wanted).map(|(parts, wanted)| {
         if !wanted {
-            return Ok(WallForce::unknown());
+            return Ok(WallForce::repeat(f64::NAN));
         }
         let sums = world.sums_of(parts.len(), &|k| Some(parts[k]))?;
         Ok(WallForce::from_sums(sums))

@@ -183,11 +183,11 @@ impl<const D: usize> Cluster<'_, D> {
         let (walls, contacts) = (&self.buffers.walls, self.contacts);
         let (wall, contacts) = match self.beside {
             true => (walls[member].row(), contacts.of_particle(particle)),
-            false => (Row::empty(), ContactRow::NONE),
+            false => (Row::default(), ContactRow::NONE),
         };
         Neighbourhood {
             particle,
-            free: Row::empty(),
+            free: Row::default(),
             wall,
             contacts,
             inverse_renormalisation: self.inverse_renormalisation[member],

@@ -6,7 +6,7 @@ use sph_kernels::Sampler;
 use crate::{ContactRow, Domain, HiddenPairs, Scaling, WallScale};
 
 /// Pairs of one particle with one set of sources, inside the support only.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Row<'a, const D: usize> {
     /// Indices of the neighbours.
     pub index: &'a [u32],
@@ -16,18 +16,6 @@ pub struct Row<'a, const D: usize> {
     pub distance2: &'a [f64],
     /// F = w'(r)/r, so that ∇w = F (r_i − r_j), m^−(d+2).
     pub factor: &'a [f64],
-}
-
-impl<const D: usize> Row<'_, D> {
-    #[inline(always)]
-    pub(crate) fn empty() -> Self {
-        Row {
-            index: &[],
-            separation: &[],
-            distance2: &[],
-            factor: &[],
-        }
-    }
 }
 
 /// Everything a term may sum over for one particle.

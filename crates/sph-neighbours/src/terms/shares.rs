@@ -30,7 +30,7 @@ pub fn shares_at<const D: usize>(
     let whole = surroundings.neighbourhood(particle, &mut rows);
     let without = whole.scaling.map(|s| s.with_slope(Vect::zeros()));
     let fluid = Neighbourhood {
-        wall: Row::empty(),
+        wall: Row::default(),
         contacts: ContactRow::NONE,
         inverse_renormalisation: 1.0,
         scaling: without.as_ref(),

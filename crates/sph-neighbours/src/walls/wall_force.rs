@@ -19,7 +19,8 @@ pub struct WallForce<const D: usize> {
 }
 
 impl<const D: usize> WallForce<D> {
-    fn repeat(number: f64) -> Self {
+    /// The same number for force and moment: NaN for a force that was not measured.
+    pub(crate) fn repeat(number: f64) -> Self {
         WallForce {
             force: Vect::repeat(number),
             moment: [number; 3],
@@ -32,11 +33,6 @@ impl<const D: usize> WallForce<D> {
     /// No force.
     pub fn zero() -> Self {
         Self::repeat(0.0)
-    }
-
-    /// A force that was not measured.
-    pub(crate) fn unknown() -> Self {
-        Self::repeat(f64::NAN)
     }
 
     /// A force on a wall at a place, N, and its moment about the origin, N m: the summands of
@@ -100,7 +96,7 @@ pub fn cross<const D: usize>(r: &Vect<D>, f: &Vect<D>) -> [f64; 3] {
     ]
 }
 
-pub(crate) fn add_moment(sum: &mut [f64; 3], more: [f64; 3]) {
+fn add_moment(sum: &mut [f64; 3], more: [f64; 3]) {
     sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
 }
 
