@@ -1,6 +1,6 @@
 //! The imports of a pair term, by `use sph_neighbours::prelude::*;`.
 //!
-//! * `plugin`, [`TermEntry`]: offers the term to scenes; [`pair_term`]: declares its columns, of [`fields`] and [`Vect`];
+//! * `plugin`, [`TermEntry`]: offers the term to scenes; [`pair_term`]: declares its columns, of `fields` and [`Vect`];
 //!   [`pair_sum`]: its formula.
 //! * [`Lane`], [`Particles`], [`LanePair`]: numbers, particles and pairs that the formula gets; [`minus`], [`dot`] and
 //!   [`add_scaled`]: its vectors.
