@@ -12,7 +12,7 @@ pub trait Columns<const D: usize> {
     fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError>;
 }
 
-/// A field, or a tuple of fields.
+/// A field, a tuple of lists of fields, or a list that may be left out.
 pub trait FieldList {
     /// The entries of their columns.
     type Items<'a, const D: usize>;
@@ -38,20 +38,35 @@ impl<K: Kind> FieldList for Field<K> {
     }
 }
 
+impl<F: FieldList> FieldList for Option<F> {
+    type Items<'a, const D: usize> = Option<F::Items<'a, D>>;
+    fn for_each(self, each: impl FnMut(AnyField)) {
+        if let Some(fields) = self {
+            fields.for_each(each);
+        }
+    }
+    fn items<const D: usize>(
+        self,
+        columns: &impl Columns<D>,
+    ) -> Result<Self::Items<'_, D>, FieldError> {
+        self.map(|fields| fields.items(columns)).transpose()
+    }
+}
+
 macro_rules! tuple {
     ($($kind:ident $field:ident),+) => {
-        impl<$($kind: Kind),+> FieldList for ($(Field<$kind>),+) {
-            type Items<'a, const D: usize> = ($(&'a [$kind::Item<D>]),+);
+        impl<$($kind: FieldList),+> FieldList for ($($kind),+) {
+            type Items<'a, const D: usize> = ($($kind::Items<'a, D>),+);
             fn for_each(self, mut each: impl FnMut(AnyField)) {
                 let ($($field),+) = self;
-                $(each($field.any());)+
+                $($field.for_each(&mut each);)+
             }
             fn items<const D: usize>(
                 self,
                 columns: &impl Columns<D>,
             ) -> Result<Self::Items<'_, D>, FieldError> {
                 let ($($field),+) = self;
-                Ok(($(columns.column($field)?),+))
+                Ok(($($field.items(columns)?),+))
             }
         }
     };

@@ -12,7 +12,8 @@ use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
 pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> impl Stage<World<D>> {
-    let access = (phase.access(Access::none()))
+    let access = Access::none()
+        .both(phase.column())
         .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))
         .writes(fields::EFFECTIVE_PRESSURE);
     let name = "pressure between grains";
@@ -36,7 +37,8 @@ pub(crate) fn dilatant_friction<const D: usize>(
     law: Arc<dyn Dilatancy>,
     friction: f64,
 ) -> impl Stage<World<D>> {
-    let access = (phase.access(Access::none()))
+    let access = Access::none()
+        .both(phase.column())
         .here((fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING))
         .writes(FRICTION_PRESSURE);
     let name = "friction of dilation";

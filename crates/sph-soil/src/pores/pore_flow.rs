@@ -34,7 +34,8 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         "pore pressure".into()
     }
     fn access(&self) -> Access {
-        let mut access = (self.soil.access(Access::none()))
+        let mut access = Access::none()
+            .both(self.soil.column())
             .both((fields::POSITION, fields::VOLUME, PACKING))
             .both(EXCESS_PORE_PRESSURE)
             .here((DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME))

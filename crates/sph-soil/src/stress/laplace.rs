@@ -204,14 +204,11 @@ impl<const D: usize> Declares for Solve<D> {
         "effective pressure".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .both((fields::POSITION, fields::VOLUME))
             // A solve starts from the last one.
-            .remembers(self.target);
-        match self.buoyant.len() {
-            1 => access,
-            _ => access.both(fields::PHASE),
-        }
+            .remembers(self.target)
+            .both((self.buoyant.len() > 1).then_some(fields::PHASE))
     }
 }
 
@@ -292,11 +289,8 @@ impl<const D: usize> Solve<D> {
         parts: &mut Vec<Part>,
     ) -> Result<(), StepError> {
         let volume = world.free.get(fields::VOLUME)?;
-        let phase = match self.buoyant.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
         let soils = &self.buoyant[..];
+        let phase = (world.free).all((soils.len() > 1).then_some(fields::PHASE))?;
         let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
         let depth = (self.surface_depth * world.spacing).max(self.least_depth);
         // Over Δρ the pressure of surface particles, m²/s².

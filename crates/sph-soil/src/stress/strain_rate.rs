@@ -30,24 +30,19 @@ impl<const D: usize> Declares for GradientStage<D> {
         "velocity gradient".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .both((fields::POSITION, fields::VELOCITY))
             .neighbours(fields::VOLUME)
-            .writes(fields::VELOCITY_GRADIENT);
-        match self.phases {
-            Some(_) => access.here(fields::PHASE),
-            None => access,
-        }
+            .writes(fields::VELOCITY_GRADIENT)
+            .here(self.phases.as_ref().map(|_| fields::PHASE))
     }
 }
 
 impl<const D: usize> Stage<World<D>> for GradientStage<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut gradients = world.free.take(fields::VELOCITY_GRADIENT)?;
-        let read = match &self.phases {
-            Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
-            None => None,
-        };
+        let phase = self.phases.as_ref().map(|_| fields::PHASE);
+        let read = self.phases.as_ref().zip(world.free.all(phase)?);
         if read.is_some() {
             gradients.fill(SMatrix::zeros());
         }

@@ -61,7 +61,7 @@ impl ClosureCommon<'_> {
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,
-        (name, mut access): (&'static str, Access),
+        (name, access): (&'static str, Access),
         set: impl Fn(&World<D>, &mut [f64]) -> Result<(), StepError> + Send + 'static,
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
@@ -71,13 +71,10 @@ impl ClosureCommon<'_> {
             law: bed.law(),
             viscosities: viscosities(self.phases, setting),
         });
-        access = access.writes(fields::EDDY_VISCOSITY);
-        if acts.is_some() {
-            access = access.here(fields::PHASE);
-        }
-        if bed.is_some() {
-            access = access.here(fields::DENSITY).here(BED);
-        }
+        let access = access
+            .writes(fields::EDDY_VISCOSITY)
+            .here(acts.as_ref().map(|_| fields::PHASE))
+            .here(bed.as_ref().map(|_| (fields::DENSITY, BED)));
         offer.stage(stage(name, access, move |world: &mut World<D>| {
             let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
             set(world, &mut eddies)?;

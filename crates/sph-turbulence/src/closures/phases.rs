@@ -1,7 +1,7 @@
 //! Phases on which a closure acts.
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{Access, StepError, fields, suggestion};
+use sph_core::{Field, Index, StepError, fields, suggestion};
 use sph_neighbours::World;
 
 use crate::columns::BED;
@@ -83,19 +83,13 @@ impl<'a> Kinematic<'a> {
         of_phase: &'a [Option<f64>],
         world: &'a World<D>,
     ) -> Result<Self, StepError> {
-        let phase = match of_phase.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
+        let phase = world.free.all(Self::column(of_phase))?;
         Ok(Kinematic { of_phase, phase })
     }
 
-    /// With the column of phases, where there are several.
-    pub fn access(of_phase: &[Option<f64>], access: Access) -> Access {
-        match of_phase.len() {
-            1 => access,
-            _ => access.here(fields::PHASE),
-        }
+    /// The column of phases, where there are several.
+    pub fn column(of_phase: &[Option<f64>]) -> Option<Field<Index>> {
+        (of_phase.len() > 1).then_some(fields::PHASE)
     }
 
     /// That of a particle.

@@ -144,17 +144,17 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
             eddies_in_space: true,
             ..ClosureCommon::default()
         };
-        let mut access = Access::none().here((fields::DENSITY, self.strain_rate()));
-        if self.damping == Damping::VanDriest {
-            access = access.here(DAMPING_UNITS);
-        }
+        let damped = self.damping == Damping::VanDriest;
+        let access = Access::none()
+            .here((fields::DENSITY, self.strain_rate()))
+            .here(damped.then_some(DAMPING_UNITS));
         let own = self.clone();
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("smagorinsky", access), set, offer)?;
         if self.strain_of == StrainOf::LastStep {
             offer.hook(StrainRecorder);
         }
-        if self.damping != Damping::VanDriest {
+        if !damped {
             return Ok(());
         }
         if !rubs(setting) {

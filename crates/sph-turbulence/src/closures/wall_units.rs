@@ -19,8 +19,8 @@ const REACH: f64 = 32.0;
 pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl Stage<World<D>> {
     let access = Access::none()
         .here((fields::POSITION, fields::VELOCITY, fields::RENORMALISATION))
-        .writes(DAMPING_UNITS);
-    let access = Kinematic::access(&viscosities, access);
+        .writes(DAMPING_UNITS)
+        .here(Kinematic::column(&viscosities));
     let mut tree = KeptTree::default();
     stage("damping units", access, move |world: &mut World<D>| {
         let mut units = world.free.take(DAMPING_UNITS)?;

@@ -158,17 +158,14 @@ impl<const D: usize> StepHook<D> for Sources {
         "k-length".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        let damped = self.closure.damped_at_surfaces;
+        Access::none()
             .here((fields::STRAIN_RATE, fields::POSITION, fields::IDENTITY))
             .here((WALL_DISTANCE, TURBULENT_ENERGY))
-            .where_there(FRICTION_VELOCITY)
-            .where_there(BED)
-            .writes(TURBULENT_ENERGY);
-        let access = match self.closure.damped_at_surfaces {
-            true => access.here(SURFACE_SHARE),
-            false => access,
-        };
-        Kinematic::access(&self.viscosities, access)
+            .where_there((FRICTION_VELOCITY, BED))
+            .writes(TURBULENT_ENERGY)
+            .here(damped.then_some(SURFACE_SHARE))
+            .here(Kinematic::column(&self.viscosities))
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::AfterKick]
@@ -180,16 +177,14 @@ impl<const D: usize> StepHook<D> for Sources {
         let acts = |i: usize| viscosity.at(i).is_some();
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
         let (length, spacing) = (self.closure.length(), world.spacing);
-        let share = match self.closure.damped_at_surfaces {
-            true => world.free.get(SURFACE_SHARE)?,
-            false => &[],
-        };
+        let damped = self.closure.damped_at_surfaces;
+        let share = world.free.all(damped.then_some(SURFACE_SHARE))?;
         let bed = world.free.all(BED).ok();
         let (rates, distance) = world.free.all((fields::STRAIN_RATE, WALL_DISTANCE))?;
         let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();
         all.with_min_len(1024).for_each(|(i, ((k, rate), z))| {
             if acts(i) {
-                let share = share.get(i).copied().unwrap_or(1.0);
+                let share = share.map_or(1.0, |share| share[i]);
                 *k = after(*k, at(&length, *z, spacing), [*rate, share], dt);
                 if let Some([u, _]) = beside_bed(bed, i) {
                     *k = u * u / KEpsilonModel::C_MU.sqrt();

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Report, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, StepError, fields, parameters};
+use sph_core::{Access, Field, Scalar, StepError, fields, parameters};
 use sph_neighbours::World;
 
 use super::model::{KEpsilonModel, Variant};
@@ -54,9 +54,9 @@ struct StrainRates {
 const AT_SURFACE: f64 = 0.5;
 
 impl Sources {
-    /// True if the share of the support that is filled matters.
-    fn sees_surfaces(&self) -> bool {
-        self.damped || self.surface_depth.is_some()
+    /// The column of the share of the support that is filled, if that matters.
+    fn surface_share(&self) -> Option<Field<Scalar>> {
+        (self.damped || self.surface_depth.is_some()).then_some(SURFACE_SHARE)
     }
 
     /// k and ε after a step within the flow.
@@ -108,18 +108,14 @@ impl<const D: usize> StepHook<D> for Sources {
         "k-epsilon".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .here((fields::STRAIN_RATE, fields::EDDY_VISCOSITY))
             .here((fields::DENSITY, fields::POSITION, fields::IDENTITY))
             .here((TURBULENT_ENERGY, DISSIPATION))
-            .where_there((FRICTION_VELOCITY, WALL_UNITS))
-            .where_there(BED)
-            .writes((TURBULENT_ENERGY, DISSIPATION));
-        let access = match self.sees_surfaces() {
-            true => access.here(SURFACE_SHARE),
-            false => access,
-        };
-        Kinematic::access(&self.viscosities, access)
+            .where_there((FRICTION_VELOCITY, WALL_UNITS, BED))
+            .writes((TURBULENT_ENERGY, DISSIPATION))
+            .here(self.surface_share())
+            .here(Kinematic::column(&self.viscosities))
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::AfterKick]
@@ -134,10 +130,7 @@ impl<const D: usize> StepHook<D> for Sources {
         refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
         let (eddies, density) = world.free.all((fields::EDDY_VISCOSITY, fields::DENSITY))?;
-        let share = match self.sees_surfaces() {
-            true => world.free.get(SURFACE_SHARE)?,
-            false => &[],
-        };
+        let share = world.free.all(self.surface_share())?;
         let walls = world.free.all((FRICTION_VELOCITY, WALL_UNITS)).ok();
         let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
@@ -156,7 +149,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 rate: rates[i],
                 eddies: eddies[i] / density[i],
                 viscosity: nu,
-                share: share.get(i).copied().unwrap_or(1.0),
+                share: share.map_or(1.0, |share| share[i]),
             };
             [*k, *e] = self.after([*k, *e], strained, near(i, nu), dt);
         });

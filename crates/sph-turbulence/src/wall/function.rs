@@ -162,8 +162,8 @@ fn wall_shear<const D: usize>(
 ) -> impl Stage<World<D>> {
     let access = Access::none()
         .here((fields::VELOCITY, fields::DENSITY, fields::RENORMALISATION))
-        .writes((FRICTION_VELOCITY, WALL_UNITS, fields::WALL_FRICTION));
-    let access = Kinematic::access(&viscosities, access);
+        .writes((FRICTION_VELOCITY, WALL_UNITS, fields::WALL_FRICTION))
+        .here(Kinematic::column(&viscosities));
     stage("wall function", access, move |world: &mut World<D>| {
         if world.walls.elements.wall_function.len() != world.walls.elements.wall.len() {
             let names = &world.walls.names;

@@ -69,15 +69,14 @@ pub(super) struct Transport {
 impl Transport {
     /// The columns that a step of grains reads and writes.
     pub fn access(&self) -> Access {
-        let access = Access::none()
+        let of_eddies = (fields::EDDY_VISCOSITY, fields::DENSITY);
+        Access::none()
             .both((fields::POSITION, fields::CONCENTRATION, fields::VOLUME))
             .here(fields::MASS)
             .where_there(fields::RENORMALISATION)
-            .remembers(fields::CONCENTRATION);
-        self.phase.access(match self.schmidt {
-            Some(_) => access.both((fields::EDDY_VISCOSITY, fields::DENSITY)),
-            None => access,
-        })
+            .remembers(fields::CONCENTRATION)
+            .both(self.schmidt.map(|_| of_eddies))
+            .both(self.phase.column())
     }
 
     /// D of a particle, m²/s.
