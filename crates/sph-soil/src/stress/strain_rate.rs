@@ -6,8 +6,8 @@ use nalgebra::SMatrix;
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World, pair_term,
-    scaled, walk_in_lanes,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, World, pair_sum, pair_term, scaled,
+    walk_in_lanes,
 };
 use sph_rheology::Gradient;
 
@@ -119,23 +119,11 @@ pub(crate) struct BoundGradient<'a, const D: usize> {
     slot: usize,
 }
 
+#[pair_sum]
 impl<const D: usize> BoundGradient<'_, D> {
-    #[inline(always)]
-    fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
-        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
-        gathered.gradient(self.formula, at.inverse_renormalisation)
-    }
-}
-
-impl<const D: usize> PairSum<D> for BoundGradient<'_, D> {
-    type Own<L: Lane> = [L; D];
-    type Sum<L: Lane> = LaneSums<L, D>;
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [L; D] {
         all.vectors(self.velocity)
     }
-    #[inline(always)]
     fn pair<L: Lane>(
         &self,
         own: &[L; D],
@@ -154,12 +142,14 @@ impl<const D: usize> PairSum<D> for BoundGradient<'_, D> {
             }
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundGradient<'_, D> {
-    #[inline(always)]
     fn finish(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.more[self.slot] += magnitude(&self.gradient(free, at));
+    }
+
+    fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
+        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
+        gathered.gradient(self.formula, at.inverse_renormalisation)
     }
 }
 
