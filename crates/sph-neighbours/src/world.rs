@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, Store, Vect, fields};
+use sph_core::{
+    AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, StepError, Store, Vect, fields,
+};
 use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
@@ -98,6 +100,26 @@ impl<const D: usize> World<D> {
     pub fn slot(&self, rate: Field<Scalar>) -> Result<usize, FieldError> {
         let found = self.transported.iter().position(|f| f.name == rate.name);
         found.ok_or(FieldError::Missing(rate.name))
+    }
+
+    /// The error of a step in which a particle has an impossible value of a quantity.
+    pub fn bad_value(
+        &self,
+        quantity: &'static str,
+        particle: usize,
+        value: f64,
+        reason: impl Into<String>,
+    ) -> StepError {
+        let position = self.free.get(fields::POSITION).map(|p| p[particle]);
+        let position: Vect<D> = position.unwrap_or_else(|_| Vect::zeros());
+        let identity = self.free.get(fields::IDENTITY).map(|i| i[particle]);
+        StepError::Bad {
+            quantity,
+            particle: identity.unwrap_or(particle as u32),
+            position: position.iter().copied().collect(),
+            value,
+            reason: reason.into(),
+        }
     }
 
     /// γ of density sums; none where it is 1.

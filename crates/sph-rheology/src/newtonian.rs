@@ -1,6 +1,6 @@
 //! The Newtonian fluid.
 
-use crate::{Inputs, Needs, Rheology, plugin};
+use crate::{GeneralisedNewtonian, plugin};
 
 /// τ = 2 η γ̇ with constant η.
 ///
@@ -17,17 +17,14 @@ pub struct Newtonian {
     pub viscosity: f64,
 }
 
-impl Rheology for Newtonian {
-    fn needs(&self) -> Needs {
-        Needs::default()
+impl GeneralisedNewtonian for Newtonian {
+    fn at(&self, _strain_rate: f64) -> f64 {
+        self.viscosity
     }
-    fn uniform_viscosity(&self) -> Option<f64> {
+    fn uniform(&self) -> Option<f64> {
         Some(self.viscosity)
     }
-    fn viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
-        viscosity.fill(self.viscosity);
-    }
-    fn largest_viscosity(&self) -> f64 {
+    fn largest(&self) -> f64 {
         self.viscosity
     }
 }

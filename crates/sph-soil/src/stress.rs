@@ -46,6 +46,7 @@ pub use gradient::{
     Isotropic, NeighbourSums, Renormalised, SymmetricDifference, VelocityGradient,
     VelocityGradientEntry,
 };
+pub(crate) use laplace::conjugate_gradient;
 pub use laplace::{EffectivePressureEntry, Laplace, PressureSolver, Soils};
 pub use law_inputs::{Blend, LawInputs};
 pub use strain_rate::GradientStage;

@@ -219,16 +219,10 @@ impl Exchange {
         if (size - 1.0).abs() <= self.limit {
             return Ok(());
         }
-        let position = world.free.get(fields::POSITION)?[i];
-        Err(StepError::Bad {
-            quantity: "size",
-            particle: world.free.get(fields::IDENTITY)?[i],
-            position: position.iter().copied().collect(),
-            value: size,
-            reason: format!(
-                "as the soil beside it has given or taken more than {} of its water: {}",
-                self.limit, self.remedy
-            ),
-        })
+        let reason = format!(
+            "as the soil beside it has given or taken more than {} of its water: {}",
+            self.limit, self.remedy
+        );
+        Err(world.bad_value("size", i, size, reason))
     }
 }

@@ -123,19 +123,14 @@ impl Laplace {
     fn on<const D: usize>(&self, soils: Soils) -> Solve<D> {
         let buoyant = |density: f64| (density - self.pore_density).max(0.0);
         Solve {
+            law: *self,
             target: fields::EFFECTIVE_PRESSURE,
             buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
-            surface_depth: self.surface_depth,
-            least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
-            interval: self.interval,
-            whole: self.solver == PressureSolver::Jacobi,
             solver: match self.solver {
-                PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
-                    preconditioner: Preconditioner::IncompleteDiagonal,
-                    tolerance: self.tolerance,
-                    iterations: self.iterations.unwrap_or(2000),
-                    ..ConjugateGradient::default()
-                }),
+                PressureSolver::ConjugateGradient => {
+                    let iterations = self.iterations.unwrap_or(2000);
+                    Box::new(conjugate_gradient(self.tolerance, iterations))
+                }
                 PressureSolver::Jacobi => Box::new(Jacobi {
                     tolerance: self.tolerance,
                     sweeps: self.iterations.unwrap_or(100_000),
@@ -179,19 +174,22 @@ impl<const D: usize> Contribution<D> for Laplace {
     }
 }
 
+/// The solver of systems of soils.
+pub(crate) fn conjugate_gradient(tolerance: f64, iterations: usize) -> ConjugateGradient {
+    ConjugateGradient {
+        preconditioner: Preconditioner::IncompleteDiagonal,
+        tolerance,
+        iterations,
+        ..ConjugateGradient::default()
+    }
+}
+
 struct Solve<const D: usize> {
+    law: Laplace,
     /// The column of the pressure: another than p' where pores are not at rest.
     target: Field<Scalar>,
     /// Δρ of every phase, kg/m³; `None` where it is no soil.
     buoyant: Vec<Option<f64>>,
-    /// β.
-    surface_depth: f64,
-    /// Depth below which no surface particle is, m.
-    least_depth: f64,
-    /// Time between solves over √(δr/|g|).
-    interval: f64,
-    /// True if the solver needs the rows of all particles.
-    whole: bool,
     solver: Box<dyn LinearSolver<1>>,
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
@@ -214,7 +212,7 @@ impl<const D: usize> Declares for Solve<D> {
 
 impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn needs_all(&self) -> Option<&'static str> {
-        self.whole.then_some(
+        (self.law.solver == PressureSolver::Jacobi).then_some(
             "its solver sweeps over the rows of all particles: take `conjugate-gradient`",
         )
     }
@@ -275,7 +273,7 @@ impl<const D: usize> Solve<D> {
 
     /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.
     fn due(&self, world: &World<D>) -> bool {
-        let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
+        let interval = self.law.interval * (world.spacing / world.gravity.norm()).sqrt();
         let count = |time: f64| (time / interval).floor();
         let passed = count(world.time) > count(world.time - world.dt);
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
@@ -292,7 +290,8 @@ impl<const D: usize> Solve<D> {
         let soils = &self.buoyant[..];
         let phase = (world.free).all((soils.len() > 1).then_some(fields::PHASE))?;
         let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
-        let depth = (self.surface_depth * world.spacing).max(self.least_depth);
+        let least_depth = 0.5 * self.law.grain_diameter.unwrap_or(0.0);
+        let depth = (self.law.surface_depth * world.spacing).max(least_depth);
         // Over Δρ the pressure of surface particles, m²/s².
         let top = depth * world.gravity.norm();
         let positions = world.free.get(fields::POSITION)?;

@@ -61,7 +61,11 @@ fn elastic_access(laws: &LawInputs) -> Access {
     laws.access().here(fields::ELASTIC_STRESS)
 }
 
-fn yielding(elastic: &dyn Elastic, inputs: &Inputs<'_>, stress: &[Symmetric]) -> Vec<Yielding> {
+pub(crate) fn yielding(
+    elastic: &dyn Elastic,
+    inputs: &Inputs<'_>,
+    stress: &[Symmetric],
+) -> Vec<Yielding> {
     let mut yielding = vec![Yielding::NONE; stress.len()];
     elastic.yielding(inputs, stress, &mut yielding);
     yielding

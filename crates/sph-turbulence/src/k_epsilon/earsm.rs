@@ -23,8 +23,6 @@ pub struct Anisotropy {
     pub n: f64,
     /// β_1.
     pub beta_1: f64,
-    /// β_4.
-    pub beta_4: f64,
     /// a.
     pub tensor: Matrix3<f64>,
     /// β_4 (S*Ω* − Ω*S*), the part of a that is not along the strain.
@@ -68,7 +66,6 @@ impl AlgebraicStress {
         Anisotropy {
             n,
             beta_1,
-            beta_4,
             tensor: s * beta_1 + across,
             across,
         }

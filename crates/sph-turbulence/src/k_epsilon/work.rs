@@ -178,15 +178,8 @@ pub(crate) fn refuse_negative<const D: usize>(
     let Some(i) = values.iter().enumerate().position(|(i, v)| bad(i, *v)) else {
         return Ok(());
     };
-    let position = world.free.get(fields::POSITION)?[i];
-    Err(StepError::Bad {
-        quantity,
-        particle: world.free.get(fields::IDENTITY)?[i],
-        position: position.iter().copied().collect(),
-        value: values[i],
-        reason: "where a positive number was expected: the step is too long for its diffusion"
-            .into(),
-    })
+    let reason = "where a positive number was expected: the step is too long for its diffusion";
+    Err(world.bad_value(quantity, i, values[i], reason))
 }
 
 /// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.

@@ -102,7 +102,6 @@ impl LogLaw {
 impl<const D: usize> Contribution<D> for LogLaw {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::at_key(KIND, key, why);
-        self.law().check().map_err(|why| refused("", why))?;
         self.check_walls(setting)
             .map_err(|why| refused("walls", why))?;
         let (roughness, spacing) = (self.roughness, setting.world.spacing);

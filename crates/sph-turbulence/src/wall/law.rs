@@ -42,30 +42,6 @@ impl Default for WallLaw {
 }
 
 impl WallLaw {
-    /// Checks the constants.
-    ///
-    /// # Errors
-    /// Names the first that is wrong.
-    pub fn check(&self) -> Result<(), String> {
-        let (positive, from_zero) = ("a positive number", "a number from 0 on");
-        for (name, value, good, expected) in [
-            ("karman", self.karman, self.karman > 0.0, positive),
-            ("smooth", self.smooth, self.smooth > 0.0, positive),
-            ("rough", self.rough, self.rough > 0.0, positive),
-            (
-                "roughness",
-                self.roughness,
-                self.roughness >= 0.0,
-                from_zero,
-            ),
-        ] {
-            if !(good && value.is_finite()) {
-                return Err(format!("{name} is {value} where {expected} was expected"));
-            }
-        }
-        Ok(())
-    }
-
     /// ΔB and its derivative by ln k_s⁺.
     fn shift(&self, sand: f64) -> [f64; 2] {
         if sand <= SMOOTH_BELOW {
@@ -300,15 +276,6 @@ mod tests {
         assert!(refused(f64::NAN, 0.1, NU).contains("NaN"));
         // e^{−κD} = 1/32.6 of the roughness.
         assert!(refused(1.0, 0.0003, NU).contains("within its roughness"));
-        let wrong = WallLaw {
-            karman: 0.0,
-            ..WallLaw::default()
-        };
-        let told = wrong.check().expect_err("refused");
-        assert!(
-            told.contains("karman is 0 where a positive number"),
-            "{told}"
-        );
         assert_eq!(law.friction_velocity(0.0, 0.1, NU), Ok(0.0));
     }
 }
