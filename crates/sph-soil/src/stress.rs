@@ -35,7 +35,6 @@ mod strain_rate;
 
 pub use adjoint::AdjointDivergence;
 pub use blended::Blended;
-pub use contribution::ElasticWaveLimit;
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, HourglassDamping, StressDivergence};

@@ -1,7 +1,7 @@
 //! Diffusion of k and ε.
 
-use sph_contribution::Limiter;
-use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
+use sph_contribution::{Limiter, bound};
+use sph_core::{Access, Field, Scalar, StepError, fields};
 use sph_neighbours::{
     Elements, Lane, LanePair, Neighbourhood, PairTerm, Particles, Rates, World, pair_sum,
 };
@@ -131,22 +131,15 @@ impl<const D: usize, const N: usize> BoundDiffusion<'_, D, N> {
 }
 
 /// Δt ≤ C ρ h²/(η + η_t): the limit of a positive explicit diffusion.
-pub(crate) struct DiffusionLimit(
-    /// C.
-    pub f64,
-);
-
-impl<const D: usize> Limiter<D> for DiffusionLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+pub(crate) fn diffusion_limit<const D: usize>(coefficient: f64) -> impl Limiter<D> {
+    let formula = format!("turbulence: dt <= {coefficient} h² / (ν + ν_t)");
+    bound("turbulence", formula, None, move |world: &World<D>| {
         let viscosity = world.free.get(fields::VISCOSITY)?.iter();
         let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
         let largest = (acting.map(|((eta, rho), _)| eta / rho)).fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new("turbulence", self.0 * h * h / largest))
-    }
-    fn formula(&self) -> String {
-        format!("turbulence: dt <= {} h² / (ν + ν_t)", self.0)
-    }
+        Ok(coefficient * h * h / largest)
+    })
 }

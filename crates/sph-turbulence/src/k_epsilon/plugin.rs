@@ -7,7 +7,7 @@ use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 use sph_soil::stress::StressDivergence;
 
-use super::diffusion::{Diffusion, DiffusionLimit};
+use super::diffusion::{Diffusion, diffusion_limit};
 use super::earsm::extra_stress;
 use super::work::Sources;
 use crate::bed::surface_share;
@@ -167,7 +167,7 @@ impl<const D: usize> Contribution<D> for KEpsilon {
                 stress: EDDY_STRESS,
             });
         }
-        offer.limiter(DiffusionLimit(setting.viscous));
+        offer.limiter(diffusion_limit(setting.viscous));
         offer.hook(Sources {
             variant: self.variant,
             at_wall: self.at_wall,
