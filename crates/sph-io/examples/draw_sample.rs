@@ -3,28 +3,14 @@
 //! `cargo run --release -p sph-io --example draw_sample -- DIR`
 
 use std::error::Error;
-use std::path::Path;
-use std::process::ExitCode;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use sph_io::{ColourMap, Picture, Plot, Series, Style, View, writable};
 
-fn main() -> ExitCode {
-    let Some(folder) = std::env::args().nth(1) else {
-        eprintln!("usage: draw_sample DIR");
-        return ExitCode::from(2);
-    };
-    match draw(Path::new(&folder)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
-    writable(folder)?;
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = PathBuf::from(std::env::args().nth(1).ok_or("usage: draw_sample DIR")?);
+    writable(&folder)?;
     let file = |name: &str| folder.join(name);
 
     let column = heap(20_000);

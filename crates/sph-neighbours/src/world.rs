@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use sph_core::{
-    AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, StepError, Store, Vect, fields,
+    Access, AnyField, Field, FieldError, Kind, Pool, PoolGuard, Role, Scalar, Stage, StepError,
+    Store, Vect, fields, stage,
 };
 use sph_kernels::Sampler;
 
@@ -56,6 +57,20 @@ impl<const D: usize> Lists<D> {
             _ => &self.of_elements,
         }
     }
+}
+
+/// A stage of a name in plans and the columns that it reads, which fills one column.
+pub fn column_stage<const D: usize, K: Kind + Send>(
+    name: &'static str,
+    access: Access,
+    field: Field<K>,
+    mut fill: impl FnMut(&World<D>, &mut [K::Item<D>]) -> Result<(), StepError> + Send,
+) -> impl Stage<World<D>> {
+    stage(name, access.writes(field), move |world: &mut World<D>| {
+        let mut column = world.free.take(field)?;
+        fill(world, &mut column)?;
+        Ok(world.free.put(field, column)?)
+    })
 }
 
 /// Columns, walls, lists, kernel and clock.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, Stage, StepError, fields, stage};
-use sph_neighbours::World;
+use sph_core::{Access, Stage, StepError, fields};
+use sph_neighbours::{World, column_stage};
 use sph_rheology::Yielding;
 
 use crate::dilatancy::{Dilatancy, GrainState};
@@ -14,11 +14,9 @@ use crate::stress::LawInputs;
 pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> impl Stage<World<D>> {
     let access = Access::none()
         .both(phase.column())
-        .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))
-        .writes(fields::EFFECTIVE_PRESSURE);
-    let name = "pressure between grains";
-    stage(name, access, move |world: &mut World<D>| {
-        let mut effective = world.free.take(fields::EFFECTIVE_PRESSURE)?;
+        .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE));
+    let (name, field) = ("pressure between grains", fields::EFFECTIVE_PRESSURE);
+    column_stage::<D, _>(name, access, field, move |world, effective| {
         let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
         let soil = phase.test(world)?;
         for (i, p) in effective.iter_mut().enumerate() {
@@ -27,7 +25,7 @@ pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> imp
                 false => drained[i],
             };
         }
-        Ok(world.free.put(fields::EFFECTIVE_PRESSURE, effective)?)
+        Ok(())
     })
 }
 
@@ -37,13 +35,13 @@ pub(crate) fn dilatant_friction<const D: usize>(
     law: Arc<dyn Dilatancy>,
     friction: f64,
 ) -> impl Stage<World<D>> {
-    let access = Access::none()
-        .both(phase.column())
-        .here((fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING))
-        .writes(FRICTION_PRESSURE);
+    let access = Access::none().both(phase.column()).here((
+        fields::EFFECTIVE_PRESSURE,
+        fields::STRAIN_RATE,
+        PACKING,
+    ));
     let name = "friction of dilation";
-    stage(name, access, move |world: &mut World<D>| {
-        let mut out = world.free.take(FRICTION_PRESSURE)?;
+    column_stage::<D, _>(name, access, FRICTION_PRESSURE, move |world, out| {
         let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
         let (strain_rate, packing) = world.free.all((fields::STRAIN_RATE, PACKING))?;
         let soil = phase.test(world)?;
@@ -56,7 +54,7 @@ pub(crate) fn dilatant_friction<const D: usize>(
             });
             out[i] *= (1.0 + angle / friction).max(0.0);
         }
-        Ok(world.free.put(FRICTION_PRESSURE, out)?)
+        Ok(())
     })
 }
 

@@ -7,7 +7,6 @@ use crate::stress::soil_surface::Grains;
 
 /// A particle by which fluid goes in and out.
 pub(crate) struct Outlet {
-    /// Its index.
     pub particle: usize,
     /// Flux per pressure and mobility, m^(d−2).
     pub conductance: f64,

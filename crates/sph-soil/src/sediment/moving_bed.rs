@@ -262,10 +262,7 @@ fn gradient(bed: &Bed, place: usize) -> [f64; 2] {
     let grid = &bed.grid;
     [0, 1].map(|axis| {
         let seen = |other: Option<usize>| other.filter(|p| *p != place && !bed.covered[*p]);
-        let (before, after) = (
-            seen(grid.step(place, axis, -1)),
-            seen(grid.step(place, axis, 1)),
-        );
+        let [before, after] = [-1, 1].map(|step| seen(grid.step(place, axis, step)));
         let ways = f64::from(u8::from(before.is_some()) + u8::from(after.is_some()));
         match ways > 0.0 {
             true => {

@@ -43,7 +43,6 @@ impl Phase {
 /// One way of the water, from a particle to a neighbour.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link<const D: usize> {
-    /// The neighbour.
     pub to: u32,
     /// Flux per drop of the potential, m^d/(Pa s).
     pub conductance: f64,
@@ -67,15 +66,13 @@ pub(crate) struct Net<const D: usize> {
     pub links: Vec<Vec<Link<D>>>,
 }
 
-impl<const D: usize> Net<D> {
-    /// Place of every particle in the net.
-    pub fn slots(&self, particles: usize) -> Vec<u32> {
-        let mut slot = vec![u32::MAX; particles];
-        for (k, &i) in self.particles.iter().enumerate() {
-            slot[i as usize] = k as u32;
-        }
-        slot
+/// Places of some of `count` particles in their list.
+pub(crate) fn places(particles: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
+    let mut place = vec![u32::MAX; count];
+    for (k, i) in (0..).zip(particles) {
+        place[i as usize] = k;
     }
+    place
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, SMatrix};
-use sph_core::{Access, Stage, StepError, Symmetric, Vect, fields, stage};
+use sph_core::{Access, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, Particles, Rates, WallPoints, World, dot, pair_sum, pair_term,
-    scaled, walk_in_lanes,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallPoints, World, column_stage, dot,
+    pair_sum, pair_term, scaled, walk_in_lanes,
 };
 
 use crate::stress::strain_rate::in_space;
@@ -18,10 +18,9 @@ pub(crate) fn stress_correction<const D: usize>(
 ) -> impl Stage<World<D>> {
     let access = Access::none()
         .both(fields::POSITION)
-        .neighbours(fields::VOLUME)
-        .writes(fields::STRESS_CORRECTION);
-    stage("stress correction", access, move |world: &mut World<D>| {
-        let mut corrections = world.free.take(fields::STRESS_CORRECTION)?;
+        .neighbours(fields::VOLUME);
+    let (name, field) = ("stress correction", fields::STRESS_CORRECTION);
+    column_stage::<D, _>(name, access, field, move |world, corrections| {
         let volume = world.free.get(fields::VOLUME)?;
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
@@ -41,8 +40,13 @@ pub(crate) fn stress_correction<const D: usize>(
             })
         };
         let free = FreePositions { volume };
-        walk_in_lanes(world, &free, |_| true, &mut corrections, correction)?;
-        Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
+        Ok(walk_in_lanes(
+            world,
+            &free,
+            |_| true,
+            corrections,
+            correction,
+        )?)
     })
 }
 

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, Work, fields,
-    parameters, plugin, stage,
+    parameters, plugin,
 };
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
 };
-use sph_neighbours::{Space, World, walk_in_lanes};
+use sph_neighbours::{Space, World, column_stage, walk_in_lanes};
 
 use crate::pores::DRAINED_PRESSURE;
 use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
@@ -32,17 +32,14 @@ contribution_kind!(
 ///
 /// Source: Ghaïtanellis 2017, Eq. 5.26.
 fn pore_pressure<const D: usize>() -> impl Stage<World<D>> {
-    let access = Access::none()
-        .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
-        .writes(fields::PORE_PRESSURE);
-    stage("pore pressure", access, |world: &mut World<D>| {
-        let mut pore = world.free.take(fields::PORE_PRESSURE)?;
-        let whole = world.free.get(fields::PRESSURE)?;
-        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
+    let pressures = (fields::PRESSURE, fields::EFFECTIVE_PRESSURE);
+    let (name, access) = ("pore pressure", Access::none().here(pressures));
+    column_stage::<D, _>(name, access, fields::PORE_PRESSURE, move |world, pore| {
+        let (whole, effective) = world.free.all(pressures)?;
         let both = whole.par_iter().zip(effective);
         let all = pore.par_iter_mut().zip(both).with_min_len(2048);
         all.for_each(|(pore, (whole, effective))| *pore = whole - effective);
-        Ok(world.free.put(fields::PORE_PRESSURE, pore)?)
+        Ok(())
     })
 }
 

@@ -101,7 +101,6 @@ pub(crate) fn set_strain_rates<const D: usize>(world: &mut World<D>) -> Result<(
 /// the neighbours, their distances and the gradients of the kernel are there already.
 #[derive(Clone)]
 pub(crate) struct StrainRateTerm<const D: usize> {
-    /// The formula of the gradient.
     pub formula: Arc<dyn VelocityGradient<D>>,
 }
 

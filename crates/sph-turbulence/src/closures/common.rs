@@ -1,8 +1,8 @@
 //! Common refusals, needs and remarks of all closures.
 
 use sph_contribution::{Offer, Refusal, Report, Setting};
-use sph_core::{Access, StepError, fields, stage, suggestion};
-use sph_neighbours::World;
+use sph_core::{Access, StepError, fields, suggestion};
+use sph_neighbours::{World, column_stage};
 
 use super::phases::{BedEddies, KIND, acting, check, viscosities};
 use crate::bed::{RoughBed, bed_shear};
@@ -11,11 +11,9 @@ use crate::distance::wall_distance;
 
 #[derive(Default)]
 pub(crate) struct ClosureCommon<'a> {
-    /// Name of the plugin.
     pub name: &'static str,
     /// Names of the phases that it acts on; empty in a scene of one.
     pub phases: &'a [String],
-    /// A bed that is a rough wall.
     pub bed: Option<&'a RoughBed>,
     /// Walls from which it reads distances, all if there are none, and beyond what distance it needs no value, m.
     pub distances: Option<(&'a [String], f64)>,
@@ -72,12 +70,10 @@ impl ClosureCommon<'_> {
             viscosities: viscosities(self.phases, setting),
         });
         let access = access
-            .writes(fields::EDDY_VISCOSITY)
             .here(acts.as_ref().map(|_| fields::PHASE))
             .here(bed.as_ref().map(|_| (fields::DENSITY, BED)));
-        offer.stage(stage(name, access, move |world: &mut World<D>| {
-            let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-            set(world, &mut eddies)?;
+        let fill = move |world: &World<D>, eddies: &mut [f64]| {
+            set(world, eddies)?;
             if let Some(acts) = &acts {
                 let phase = world.free.get(fields::PHASE)?;
                 let all = eddies.iter_mut().zip(phase);
@@ -85,10 +81,11 @@ impl ClosureCommon<'_> {
                 others.for_each(|(eddy, _)| *eddy = 0.0);
             }
             if let Some(bed) = &bed {
-                bed.set(world, &mut eddies)?;
+                bed.set(world, eddies)?;
             }
-            Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
-        }));
+            Ok(())
+        };
+        offer.stage(column_stage(name, access, fields::EDDY_VISCOSITY, fill));
         if let Some((walls, within)) = self.distances {
             offer.stage(wall_distance(walls.to_vec(), within));
         }

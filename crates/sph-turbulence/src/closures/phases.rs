@@ -7,7 +7,6 @@ use sph_neighbours::World;
 use crate::columns::BED;
 use crate::wall::WallLaw;
 
-/// The kind of all closures.
 pub(crate) const KIND: &str = "eddy-viscosity";
 
 pub(crate) fn check<const D: usize>(
@@ -105,7 +104,6 @@ pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
 
 /// Eddies that make the shear of a rough bed.
 pub(crate) struct BedEddies {
-    /// The law of the wall over it.
     pub law: WallLaw,
     /// ν of every phase, m²/s; none of those without a bed.
     pub viscosities: Vec<Option<f64>>,

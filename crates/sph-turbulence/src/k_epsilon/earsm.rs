@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
-use sph_core::{Access, Stage, Symmetric, fields, stage};
-use sph_neighbours::World;
+use sph_core::{Access, Stage, Symmetric, fields};
+use sph_neighbours::{World, column_stage};
 
 use crate::closures::in_space;
 use crate::columns::{DISSIPATION, EDDY_STRESS, TURBULENT_ENERGY};
@@ -79,26 +79,29 @@ impl AlgebraicStress {
 pub(crate) fn extra_stress<const D: usize>() -> impl Stage<World<D>> {
     let access = Access::none()
         .here((fields::DENSITY, fields::VELOCITY_GRADIENT))
-        .here((TURBULENT_ENERGY, DISSIPATION))
-        .writes(EDDY_STRESS);
-    stage("stress of eddies", access, |world: &mut World<D>| {
-        let mut stresses = world.free.take(EDDY_STRESS)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
-        let (energy, dissipation) = world.free.all((TURBULENT_ENERGY, DISSIPATION))?;
-        let all = stresses.par_iter_mut().enumerate().with_min_len(512);
-        all.for_each(|(i, stress)| {
-            let (k, e) = (energy[i], dissipation[i]);
-            *stress = match e > 0.0 {
-                true => {
-                    Symmetric::part_of(AlgebraicStress::anisotropy(&gradients[i], k / e).across)
-                        * (-density[i] * k)
-                }
-                false => Symmetric::ZERO,
-            };
-        });
-        Ok(world.free.put(EDDY_STRESS, stresses)?)
-    })
+        .here((TURBULENT_ENERGY, DISSIPATION));
+    column_stage::<D, _>(
+        "stress of eddies",
+        access,
+        EDDY_STRESS,
+        |world, stresses| {
+            let density = world.free.get(fields::DENSITY)?;
+            let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
+            let (energy, dissipation) = world.free.all((TURBULENT_ENERGY, DISSIPATION))?;
+            let all = stresses.par_iter_mut().enumerate().with_min_len(512);
+            all.for_each(|(i, stress)| {
+                let (k, e) = (energy[i], dissipation[i]);
+                *stress = match e > 0.0 {
+                    true => {
+                        Symmetric::part_of(AlgebraicStress::anisotropy(&gradients[i], k / e).across)
+                            * (-density[i] * k)
+                    }
+                    false => Symmetric::ZERO,
+                };
+            });
+            Ok(())
+        },
+    )
 }
 
 #[cfg(test)]

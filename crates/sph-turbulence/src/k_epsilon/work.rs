@@ -26,11 +26,8 @@ pub enum AtWall {
 
 /// After diffusion: k and ε are produced and dissipated, and next to walls with a wall function they are its own.
 pub(crate) struct Sources {
-    /// The equations.
     pub variant: Variant,
-    /// Next to walls.
     pub at_wall: AtWall,
-    /// κ.
     pub karman: f64,
     /// ν of every phase, m²/s; none of those that it does not act on.
     pub viscosities: Vec<Option<f64>>,

@@ -60,7 +60,6 @@ pub(super) struct Transport {
     pub diffusivity: f64,
     /// Viscosity of the eddies over the diffusivity of the grains; none without eddies.
     pub schmidt: Option<f64>,
-    /// The phase that carries grains.
     pub phase: PhaseMask,
     /// Reference density of the fluid, kg/m³.
     pub density: f64,
