@@ -99,27 +99,25 @@ impl WallLaw {
         viscosity: f64,
     ) -> Result<f64, String> {
         let least = self.least_distance();
-        let wrong = if !(distance > 0.0 && distance.is_finite()) {
-            format!(
-                "the distance from the wall is {distance} m where a positive number was expected"
-            )
-        } else if !(viscosity > 0.0 && viscosity.is_finite()) {
-            format!(
-                "the kinematic viscosity is {viscosity} m²/s where a positive number was expected"
-            )
-        } else if !(speed >= 0.0 && speed.is_finite()) {
-            format!("the speed along the wall is {speed} m/s where a number from 0 on was expected")
-        } else if distance <= least {
-            format!(
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let expected = "where a positive number was expected";
+        Err(match speed {
+            _ if !positive(distance) => {
+                format!("the distance from the wall is {distance} m {expected}")
+            }
+            _ if !positive(viscosity) => {
+                format!("the kinematic viscosity is {viscosity} m²/s {expected}")
+            }
+            _ if !(speed >= 0.0 && speed.is_finite()) => format!(
+                "the speed along the wall is {speed} m/s where a number from 0 on was expected"
+            ),
+            _ if distance <= least => format!(
                 "the distance of {distance} m from the wall is within its roughness, where the law has no velocity: more \
                  than {least} m was expected"
-            )
-        } else if speed == 0.0 {
-            return Ok(0.0);
-        } else {
-            return Ok(self.solve(speed, distance, viscosity));
-        };
-        Err(wrong)
+            ),
+            0.0 => return Ok(0.0),
+            _ => return Ok(self.solve(speed, distance, viscosity)),
+        })
     }
 
     /// The root of u* u⁺ − u, which grows with u*.

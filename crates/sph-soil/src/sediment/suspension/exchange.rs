@@ -79,9 +79,8 @@ impl BedExchange {
             pass.lifted *= shares[pass.place];
             concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
         }
-        let net = all
-            .iter()
-            .map(|pass| (pass.place, pass.settled - pass.lifted));
+        let passes = all.iter();
+        let net = passes.map(|pass| (pass.place, pass.settled - pass.lifted));
         let changes = world.sums_by_place(&net.collect::<Vec<_>>(), bed.grid.len())?;
         for (place, change) in changes.iter().enumerate() {
             bed.lifted -= change;
@@ -115,11 +114,8 @@ impl BedExchange {
                 }
             }
         }
-        let weights: Vec<_> = parts
-            .iter()
-            .map(|(_, place, part, _)| (*place, *part))
-            .collect();
-        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let weights = parts.iter().map(|(_, place, part, _)| (*place, *part));
+        let weights = world.sums_by_place(&weights.collect::<Vec<_>>(), bed.grid.len())?;
         let filled = parts.into_iter().map(|(particle, place, part, distance)| {
             let area = bed.grid.area(place);
             let own = dt * area * part / weights[place].max(WET * 0.5 * area);

@@ -219,14 +219,11 @@ impl<const D: usize> Elasticity<D> {
             return Ok(());
         }
         let (points, elements) = (&setting.world.walls.points, &setting.world.walls.elements);
-        let mut friction_factors = points
-            .friction_factor
-            .iter()
-            .chain(&elements.friction_factor);
+        let slips = |factors: &[f64]| factors.iter().any(|factor| *factor < 1.0);
         let why = if force.displaced() {
             "the force is made of displacements and not of a stress: take `adjoint` out, or take \
              [elastic-force.divergence]"
-        } else if friction_factors.any(|friction_factor| *friction_factor < 1.0) {
+        } else if slips(&points.friction_factor) || slips(&elements.friction_factor) {
             "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \"no-slip\""
         } else {
             return Ok(());
