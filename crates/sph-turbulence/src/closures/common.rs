@@ -1,7 +1,7 @@
 //! Common refusals, needs and remarks of all closures.
 
 use sph_contribution::{Offer, Refusal, Report, Setting};
-use sph_core::{Access, StepError, fields, suggestion};
+use sph_core::{Access, StepError, fields};
 use sph_neighbours::{World, column_stage};
 
 use super::phases::{BedEddies, KIND, acting, check, viscosities};
@@ -29,7 +29,6 @@ pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
 
 impl ClosureCommon<'_> {
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         let name = self.name;
         check(name, self.phases, setting)?;
         if let Some(bed) = self.bed {
@@ -42,12 +41,11 @@ impl ClosureCommon<'_> {
                     "`{name}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
                      with `[walls.usaw]`"
                 );
-                return refused("", why);
+                return Err(Refusal::at_key(KIND, "", why));
             }
             let mut strange = named.iter().filter(|n| !walls.names.contains(n));
             if let Some(name) = strange.next() {
-                let near = suggestion(name, walls.names.iter().map(String::as_str));
-                return refused("walls", format!("there is no wall `{name}`{near}"));
+                return Err(Refusal::unknown(KIND, "walls", "wall", name, &walls.names));
             }
         }
         Ok(())

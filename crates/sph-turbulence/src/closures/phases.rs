@@ -1,7 +1,7 @@
 //! Phases on which a closure acts.
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{Field, Index, StepError, fields, suggestion};
+use sph_core::{Field, Index, StepError, fields};
 use sph_neighbours::World;
 
 use crate::columns::BED;
@@ -28,8 +28,7 @@ pub(crate) fn check<const D: usize>(
     }
     for name in named {
         let Some(k) = all.iter().position(|phase| phase == name) else {
-            let near = suggestion(name, all.iter().map(String::as_str));
-            return refused("phases", format!("there is no phase `{name}`{near}"));
+            return Err(Refusal::unknown(KIND, "phases", "phase", name, all));
         };
         if !viscous(k) && all.len() > 1 {
             let why = format!(
