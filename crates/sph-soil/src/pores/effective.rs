@@ -12,12 +12,11 @@ use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
 pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> impl Stage<World<D>> {
-    let access = Access::none()
-        .both(phase.column())
-        .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE));
+    let pressures = (DRAINED_PRESSURE, EXCESS_PORE_PRESSURE);
+    let access = Access::none().both(phase.column()).here(pressures);
     let (name, field) = ("pressure between grains", fields::EFFECTIVE_PRESSURE);
     column_stage::<D, _>(name, access, field, move |world, effective| {
-        let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
+        let (drained, excess) = world.free.all(pressures)?;
         let soil = phase.test(world)?;
         for (i, p) in effective.iter_mut().enumerate() {
             *p = match soil(i) {
@@ -35,15 +34,11 @@ pub(crate) fn dilatant_friction<const D: usize>(
     law: Arc<dyn Dilatancy>,
     friction: f64,
 ) -> impl Stage<World<D>> {
-    let access = Access::none().both(phase.column()).here((
-        fields::EFFECTIVE_PRESSURE,
-        fields::STRAIN_RATE,
-        PACKING,
-    ));
+    let state = (fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING);
+    let access = Access::none().both(phase.column()).here(state);
     let name = "friction of dilation";
     column_stage::<D, _>(name, access, FRICTION_PRESSURE, move |world, out| {
-        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
-        let (strain_rate, packing) = world.free.all((fields::STRAIN_RATE, PACKING))?;
+        let (effective, strain_rate, packing) = world.free.all(state)?;
         let soil = phase.test(world)?;
         out.copy_from_slice(effective);
         for i in (0..out.len()).filter(|&i| soil(i)) {

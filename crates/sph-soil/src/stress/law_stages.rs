@@ -13,52 +13,42 @@ use crate::stress::{Blend, LawInputs};
 /// blended it is that of the liquid alone. With `eddies` there is an eddy viscosity to add.
 pub(crate) fn viscosities<const D: usize>(laws: LawInputs, eddies: bool) -> impl Stage<World<D>> {
     let eddies = eddies.then_some(fields::EDDY_VISCOSITY);
-    let access = laws.access().here(eddies);
-    column_stage::<D, _>(
-        "rheology",
-        access,
-        fields::VISCOSITY,
-        move |world, viscosity| {
-            laws.each(world, viscosity, |law, inputs, _, out| {
-                match law.elastic().filter(|elastic| elastic.blends()) {
-                    Some(elastic) if laws.blend == Blend::Forces => {
-                        elastic.liquid_viscosity(inputs, out)
-                    }
-                    _ => law.viscosity(inputs, out),
+    let (access, field) = (laws.access().here(eddies), fields::VISCOSITY);
+    column_stage::<D, _>("rheology", access, field, move |world, viscosity| {
+        laws.each(world, viscosity, |law, inputs, _, out| {
+            match law.elastic().filter(|elastic| elastic.blends()) {
+                Some(elastic) if laws.blend == Blend::Forces => {
+                    elastic.liquid_viscosity(inputs, out)
                 }
-            })?;
-            if let Some(eddies) = world.free.all(eddies)? {
-                viscosity.iter_mut().zip(eddies).for_each(|(v, e)| *v += e);
+                _ => law.viscosity(inputs, out),
             }
-            Ok(())
-        },
-    )
+        })?;
+        if let Some(eddies) = world.free.all(eddies)? {
+            viscosity.iter_mut().zip(eddies).for_each(|(v, e)| *v += e);
+        }
+        Ok(())
+    })
 }
 
 /// [`CARRIED_STRESS`](fields::CARRIED_STRESS) from the remembered one; zero in phases without
 /// an elastic part. Where forces are blended it is the whole stress of the solid, cut to the yield stress.
 pub(crate) fn carried_stress<const D: usize>(laws: LawInputs) -> impl Stage<World<D>> {
-    let (name, access) = ("carried stress", elastic_access(&laws));
-    column_stage::<D, _>(
-        name,
-        access,
-        fields::CARRIED_STRESS,
-        move |world, carried| {
-            let stress = world.free.get(fields::ELASTIC_STRESS)?;
-            laws.each(world, carried, |law, inputs, run, out| {
-                match law.elastic() {
-                    Some(elastic) if laws.blend == Blend::Forces => {
-                        let stress = &stress[run];
-                        let yielding = yielding(elastic, inputs, stress);
-                        let all = out.iter_mut().zip(stress).zip(&yielding);
-                        all.for_each(|((out, stress), yielding)| *out = *stress * yielding.held);
-                    }
-                    Some(elastic) => elastic.carried(inputs, &stress[run], out),
-                    None => out.fill(Symmetric::ZERO),
+    let (access, field) = (elastic_access(&laws), fields::CARRIED_STRESS);
+    column_stage::<D, _>("carried stress", access, field, move |world, carried| {
+        let stress = world.free.get(fields::ELASTIC_STRESS)?;
+        laws.each(world, carried, |law, inputs, run, out| {
+            match law.elastic() {
+                Some(elastic) if laws.blend == Blend::Forces => {
+                    let stress = &stress[run];
+                    let yielding = yielding(elastic, inputs, stress);
+                    let all = out.iter_mut().zip(stress).zip(&yielding);
+                    all.for_each(|((out, stress), yielding)| *out = *stress * yielding.held);
                 }
-            })
-        },
-    )
+                Some(elastic) => elastic.carried(inputs, &stress[run], out),
+                None => out.fill(Symmetric::ZERO),
+            }
+        })
+    })
 }
 
 fn elastic_access(laws: &LawInputs) -> Access {

@@ -170,17 +170,12 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
 /// Keeps the strain rate of a step, which came along with its interactions, for the closure in the next one.
 fn strain_recorder<const D: usize>() -> impl StepHook<D> {
     let access = Access::none().here(fields::STRAIN_RATE).writes(LAST_STRAIN);
-    let phases = &[StepPhase::AfterKick];
-    step_hook(
-        "strain rate of the step",
-        access,
-        phases,
-        |world: &mut World<D>, _| {
-            let mut kept = world.free.take(LAST_STRAIN)?;
-            kept.copy_from_slice(world.free.get(fields::STRAIN_RATE)?);
-            Ok(world.free.put(LAST_STRAIN, kept)?)
-        },
-    )
+    let (name, phases) = ("strain rate of the step", &[StepPhase::AfterKick]);
+    step_hook(name, access, phases, |world: &mut World<D>, _| {
+        let mut kept = world.free.take(LAST_STRAIN)?;
+        kept.copy_from_slice(world.free.get(fields::STRAIN_RATE)?);
+        Ok(world.free.put(LAST_STRAIN, kept)?)
+    })
 }
 
 #[cfg(test)]

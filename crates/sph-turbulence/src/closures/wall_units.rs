@@ -21,28 +21,24 @@ pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl 
         .here((fields::POSITION, fields::VELOCITY, fields::RENORMALISATION))
         .here(Kinematic::column(&viscosities));
     let mut tree = KeptTree::default();
-    column_stage::<D, _>(
-        "damping units",
-        access,
-        DAMPING_UNITS,
-        move |world, units| {
-            let friction = friction_velocities(&viscosities, world)?;
-            let factors = &world.walls.elements.friction_factor;
-            let tree = tree.updated(world, |s| factors[s] > 0.0);
-            let within = REACH * world.kernel.smoothing_length();
-            let positions = world.free.get(fields::POSITION)?;
-            let viscosity = Kinematic::from_world(&viscosities, world)?;
-            let all = units.par_iter_mut().zip(positions).enumerate();
-            all.with_min_len(256).for_each(|(i, (z, x))| {
-                let nu = viscosity.at(i);
-                let found = tree.nearest(x, within).filter(|_| nu.is_some());
-                let friction = |(d, s): (f64, u32)| Some(d * friction[s as usize]?);
-                let plus = found.and_then(friction).zip(nu).map(|(d, nu)| d / nu);
-                *z = plus.unwrap_or(f64::INFINITY);
-            });
-            Ok(())
-        },
-    )
+    let name = "damping units";
+    column_stage::<D, _>(name, access, DAMPING_UNITS, move |world, units| {
+        let friction = friction_velocities(&viscosities, world)?;
+        let factors = &world.walls.elements.friction_factor;
+        let tree = tree.updated(world, |s| factors[s] > 0.0);
+        let within = REACH * world.kernel.smoothing_length();
+        let positions = world.free.get(fields::POSITION)?;
+        let viscosity = Kinematic::from_world(&viscosities, world)?;
+        let all = units.par_iter_mut().zip(positions).enumerate();
+        all.with_min_len(256).for_each(|(i, (z, x))| {
+            let nu = viscosity.at(i);
+            let found = tree.nearest(x, within).filter(|_| nu.is_some());
+            let friction = |(d, s): (f64, u32)| Some(d * friction[s as usize]?);
+            let plus = found.and_then(friction).zip(nu).map(|(d, nu)| d / nu);
+            *z = plus.unwrap_or(f64::INFINITY);
+        });
+        Ok(())
+    })
 }
 
 /// u* of every element that rubs, m/s; none where no particle is near.

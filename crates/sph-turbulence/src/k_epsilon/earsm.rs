@@ -77,31 +77,28 @@ impl AlgebraicStress {
 ///
 /// Source: Wallin and Johansson 2000, Eq. 3.9.
 pub(crate) fn extra_stress<const D: usize>() -> impl Stage<World<D>> {
-    let access = Access::none()
-        .here((fields::DENSITY, fields::VELOCITY_GRADIENT))
-        .here((TURBULENT_ENERGY, DISSIPATION));
-    column_stage::<D, _>(
+    let strained = (fields::DENSITY, fields::VELOCITY_GRADIENT);
+    let transported = (TURBULENT_ENERGY, DISSIPATION);
+    let (name, access) = (
         "stress of eddies",
-        access,
-        EDDY_STRESS,
-        |world, stresses| {
-            let density = world.free.get(fields::DENSITY)?;
-            let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
-            let (energy, dissipation) = world.free.all((TURBULENT_ENERGY, DISSIPATION))?;
-            let all = stresses.par_iter_mut().enumerate().with_min_len(512);
-            all.for_each(|(i, stress)| {
-                let (k, e) = (energy[i], dissipation[i]);
-                *stress = match e > 0.0 {
-                    true => {
-                        Symmetric::part_of(AlgebraicStress::anisotropy(&gradients[i], k / e).across)
-                            * (-density[i] * k)
-                    }
-                    false => Symmetric::ZERO,
-                };
-            });
-            Ok(())
-        },
-    )
+        Access::none().here((strained, transported)),
+    );
+    column_stage::<D, _>(name, access, EDDY_STRESS, move |world, stresses| {
+        let (density, gradients) = world.free.all(strained)?;
+        let (energy, dissipation) = world.free.all(transported)?;
+        let all = stresses.par_iter_mut().enumerate().with_min_len(512);
+        all.for_each(|(i, stress)| {
+            let (k, e) = (energy[i], dissipation[i]);
+            *stress = match e > 0.0 {
+                true => {
+                    Symmetric::part_of(AlgebraicStress::anisotropy(&gradients[i], k / e).across)
+                        * (-density[i] * k)
+                }
+                false => Symmetric::ZERO,
+            };
+        });
+        Ok(())
+    })
 }
 
 #[cfg(test)]

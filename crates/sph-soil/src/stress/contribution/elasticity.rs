@@ -260,10 +260,6 @@ fn wave_limit<const D: usize>(courant: f64, speed: f64, stiffness: f64) -> impl 
     let formula = format!("elastic wave: dt <= {courant} h / sqrt(c² + {stiffness:.2} G/ρ)");
     let remedy = "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: \
                   the elastic force then has steps of its own within that of the flow";
-    bound(
-        "elastic wave",
-        formula,
-        Some(remedy),
-        move |world: &World<D>| Ok(courant * world.kernel.smoothing_length() / speed),
-    )
+    let longest = move |world: &World<D>| Ok(courant * world.kernel.smoothing_length() / speed);
+    bound("elastic wave", formula, Some(remedy), longest)
 }
