@@ -52,11 +52,7 @@ impl<const D: usize> Setting<'_, D> {
         name: &str,
     ) -> Result<usize, Refusal> {
         let found = self.phases.iter().position(|phase| phase == name);
-        found.ok_or_else(|| {
-            let near = suggestion(name, self.phases.iter().map(String::as_str));
-            let why = format!("there is no phase called `{name}`{near}");
-            Refusal::at_key(kind, key, why)
-        })
+        found.ok_or_else(|| Refusal::unknown(kind, key, "phase called", name, self.phases))
     }
 }
 
@@ -104,6 +100,18 @@ impl Refusal {
             key: key.into(),
             why: why.into(),
         }
+    }
+
+    /// Of a key that names a thing which is none of the known ones; it names the nearest of them.
+    pub fn unknown(
+        kind: &'static str,
+        key: impl Into<String>,
+        thing: &str,
+        name: &str,
+        known: &[String],
+    ) -> Self {
+        let near = suggestion(name, known.iter().map(String::as_str));
+        Refusal::at_key(kind, key, format!("there is no {thing} `{name}`{near}"))
     }
 }
 

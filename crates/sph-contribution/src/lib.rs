@@ -2,8 +2,8 @@
 //!
 //! * [`Contribution`]: columns with their values at the start, and an [`Offer`]: stages, pair terms, transported scalars,
 //!   step limits, hooks and gates. The solver calls every contribution once and names none.
-//! * [`StepHook`]: work on velocities, positions and columns in some [`StepPhase`]s of a step; a [`Kick`] advances the
-//!   velocities itself.
+//! * [`StepHook`]: work on velocities, positions and columns in some [`StepPhase`]s of a step, [`step_hook`] one from a
+//!   function; a [`Kick`] advances the velocities itself.
 //! * [`Gate`]: particles that leave, and [`Newborn`] particles.
 //! * [`OwnColumn`]: a column that carries history. The store sorts, saves, keeps and rolls it back by its role.
 //! * [`Limiter`]: a bound on the step, [`bound`] one from a function; [`sound_limit`] and [`force_limit`] are in every
@@ -34,7 +34,9 @@ pub use limits::{
 };
 pub use offer::{Offer, ParticleEnergy, StoredEnergy};
 pub use plugins::{PluginInForce, Plugins};
-pub use step_hook::{Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase};
+pub use step_hook::{
+    Forces, Kick, OutsideForce, Report, StepHook, StepMoment, StepPhase, step_hook,
+};
 
 /// Stages of an evaluation.
 pub type Stages<const D: usize> = Vec<Box<dyn sph_core::Stage<sph_neighbours::World<D>>>>;

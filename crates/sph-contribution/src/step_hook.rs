@@ -111,6 +111,46 @@ pub trait StepHook<const D: usize>: Send {
     fn resume(&mut self, _counts: Json) {}
 }
 
+/// A hook of a name, the columns that it touches, the phases in which it runs and its work, over a number of seconds.
+pub fn step_hook<const D: usize>(
+    name: &'static str,
+    access: Access,
+    phases: &'static [StepPhase],
+    run: impl FnMut(&mut World<D>, f64) -> Result<(), StepError> + Send,
+) -> impl StepHook<D> {
+    FunctionHook {
+        name,
+        access,
+        phases,
+        run,
+    }
+}
+
+struct FunctionHook<F> {
+    name: &'static str,
+    access: Access,
+    phases: &'static [StepPhase],
+    run: F,
+}
+
+impl<const D: usize, F> StepHook<D> for FunctionHook<F>
+where
+    F: FnMut(&mut World<D>, f64) -> Result<(), StepError> + Send,
+{
+    fn name(&self) -> String {
+        self.name.into()
+    }
+    fn access(&self) -> Access {
+        self.access.clone()
+    }
+    fn phases(&self) -> &'static [StepPhase] {
+        self.phases
+    }
+    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
+        (self.run)(moment.world, moment.dt)
+    }
+}
+
 /// A kick in the place of that with the acceleration alone.
 pub trait Kick<const D: usize> {
     /// Advances the velocities by `dt` seconds with the acceleration and its own force.

@@ -3,7 +3,7 @@
 use crate::field::AnyField;
 use crate::{Field, FieldError, Kind, Store};
 
-/// A field, or a tuple of fields.
+/// A field, a tuple of lists of fields, or a list that may be left out.
 pub trait FieldList {
     /// The entries of their columns.
     type Items<'a, const D: usize>;
@@ -26,20 +26,32 @@ impl<K: Kind> FieldList for Field<K> {
     }
 }
 
+impl<F: FieldList> FieldList for Option<F> {
+    type Items<'a, const D: usize> = Option<F::Items<'a, D>>;
+    fn for_each(self, each: impl FnMut(AnyField)) {
+        if let Some(fields) = self {
+            fields.for_each(each);
+        }
+    }
+    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError> {
+        self.map(|fields| fields.items(store)).transpose()
+    }
+}
+
 macro_rules! tuple {
     ($($kind:ident $field:ident),+) => {
-        impl<$($kind: Kind),+> FieldList for ($(Field<$kind>),+) {
-            type Items<'a, const D: usize> = ($(&'a [$kind::Item<D>]),+);
+        impl<$($kind: FieldList),+> FieldList for ($($kind),+) {
+            type Items<'a, const D: usize> = ($($kind::Items<'a, D>),+);
             fn for_each(self, mut each: impl FnMut(AnyField)) {
                 let ($($field),+) = self;
-                $(each($field.any());)+
+                $($field.for_each(&mut each);)+
             }
             fn items<const D: usize>(
                 self,
                 store: &Store<D>,
             ) -> Result<Self::Items<'_, D>, FieldError> {
                 let ($($field),+) = self;
-                Ok(($(store.get($field)?),+))
+                Ok(($($field.items(store)?),+))
             }
         }
     };

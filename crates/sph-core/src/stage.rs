@@ -66,10 +66,10 @@ macro_rules! adders {
         impl Access {$(
             #[doc = $doc]
             pub fn $name(mut self, fields: impl FieldList) -> Self {
-                fields.for_each(|f| {$(
-                    push(&mut self.$list, f);
-                )+});
-                self.sweep |= $sweep;
+                fields.for_each(|f| {
+                    $(push(&mut self.$list, f);)+
+                    self.sweep |= $sweep;
+                });
                 self
             }
         )+}

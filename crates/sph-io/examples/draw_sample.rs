@@ -3,35 +3,18 @@
 //! `cargo run --release -p sph-io --example draw_sample -- DIR`
 
 use std::error::Error;
-use std::path::Path;
-use std::process::ExitCode;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use sph_io::{ColourMap, Picture, Plot, Series, Style, View, writable};
 
-fn main() -> ExitCode {
-    let Some(folder) = std::env::args().nth(1) else {
-        eprintln!("usage: draw_sample DIR");
-        return ExitCode::from(2);
-    };
-    match draw(Path::new(&folder)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
-    writable(folder)?;
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = PathBuf::from(std::env::args().nth(1).ok_or("usage: draw_sample DIR")?);
+    writable(&folder)?;
     let file = |name: &str| folder.join(name);
 
     let column = heap(20_000);
-    let pressure: Vec<f64> = column
-        .iter()
-        .map(|p| 9810.0 * (surface(p[0]) - p[1]))
-        .collect();
+    let pressure = values(&column, |p| 9810.0 * (surface(p[0]) - p[1]));
     let tank = tank(1.6, 0.8);
     let dam_break = Picture {
         title: "Dam break",
@@ -45,10 +28,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     dam_break.save(file("dam_break.png"))?;
     println!("{} particles in {:?}", column.len(), start.elapsed());
 
-    let vorticity: Vec<f64> = column
-        .iter()
-        .map(|p| 60.0 * (9.0 * p[0]).sin() * p[1])
-        .collect();
+    let vorticity = values(&column, |p| 60.0 * (9.0 * p[0]).sin() * p[1]);
     Picture {
         title: "Vorticity, clipped range",
         label: "vorticity [1/s]",
@@ -60,7 +40,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     .save(file("vorticity.png"))?;
 
     let ball = ball(30);
-    let height: Vec<f64> = ball.iter().map(|p| 2.4e5 * p[2]).collect();
+    let height = values(&ball, |p| 2.4e5 * p[2]);
     Picture {
         title: "Ball, front view",
         time: Some(0.0021),
@@ -73,7 +53,7 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     .save(file("ball.png"))?;
 
     let flume: Vec<[f64; 3]> = (0..4000).map(|i| [0.01 * f64::from(i), 0.1, 0.0]).collect();
-    let depth: Vec<f64> = flume.iter().map(|p| p[0].sin()).collect();
+    let depth = values(&flume, |p| p[0].sin());
     Picture {
         title: "Flume",
         label: "depth [m]",
@@ -100,6 +80,10 @@ fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
         println!("{name} in {:?}", start.elapsed());
     }
     Ok(())
+}
+
+fn values(points: &[[f64; 3]], value: impl Fn(&[f64; 3]) -> f64) -> Vec<f64> {
+    points.iter().map(value).collect()
 }
 
 fn surface(x: f64) -> f64 {

@@ -7,7 +7,6 @@
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::Path;
-use std::process::ExitCode;
 
 use serde::Serialize;
 use sph_io::{
@@ -26,21 +25,9 @@ struct Expected {
     cell_arrays: BTreeMap<String, (usize, String)>,
 }
 
-fn main() -> ExitCode {
-    let Some(folder) = std::env::args().nth(1) else {
-        eprintln!("usage: write_sample DIR");
-        return ExitCode::from(2);
-    };
-    match sample(Path::new(&folder)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn sample(folder: &Path) -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args().nth(1).ok_or("usage: write_sample DIR")?;
+    let folder = Path::new(&folder);
     writable(folder)?;
     let mut series = PvdSeries::create(folder.join("fields.pvd"))?;
     let mut expected = Vec::new();

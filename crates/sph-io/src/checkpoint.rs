@@ -147,16 +147,6 @@ enum Kind {
     U64,
 }
 
-impl Kind {
-    /// Bytes per number.
-    fn size(self) -> u64 {
-        match self {
-            Self::U32 => 4,
-            Self::F64 | Self::U64 => 8,
-        }
-    }
-}
-
 /// One column as the header describes it.
 #[derive(Debug, Serialize, Deserialize)]
 struct Shape {
@@ -171,8 +161,12 @@ struct Shape {
 impl Shape {
     /// Bytes of the column, unless that is beyond counting.
     fn bytes(&self) -> Option<u64> {
+        let size = match self.kind {
+            Kind::U32 => 4,
+            Kind::F64 | Kind::U64 => 8,
+        };
         let numbers = self.components.checked_mul(self.count)?;
-        numbers.checked_mul(self.kind.size())
+        numbers.checked_mul(size)
     }
 }
 

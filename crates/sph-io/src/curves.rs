@@ -39,7 +39,6 @@ pub enum DrawError {
     Unfit(String),
 }
 
-/// Columns of a place.
 const PLACE: [(&str, &str); 3] = [("x", "m"), ("y", "m"), ("z", "m")];
 
 /// Writes a table beside a picture.

@@ -70,4 +70,4 @@ pub use walls::free_body::{FreeBody, lightness};
 pub use walls::slopes::Slope;
 pub use walls::wall_force::{WallForce, cross};
 pub use walls::{Coulomb, Elements, Frame, LinePull, Passed, WallPoints, WallSet};
-pub use world::{Lists, World};
+pub use world::{Lists, World, column_stage};

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sph_core::{AnyField, Field, FieldError, Pool, PoolGuard, Role, Scalar, Store, Vect, fields};
+use sph_core::{
+    Access, AnyField, Field, FieldError, Kind, Pool, PoolGuard, Role, Scalar, Stage, StepError,
+    Store, Vect, fields, stage,
+};
 use sph_kernels::Sampler;
 
 use crate::decomposition::Link;
@@ -56,6 +59,20 @@ impl<const D: usize> Lists<D> {
     }
 }
 
+/// A stage of a name in plans and the columns that it reads, which fills one column.
+pub fn column_stage<const D: usize, K: Kind + Send>(
+    name: &'static str,
+    access: Access,
+    field: Field<K>,
+    mut fill: impl FnMut(&World<D>, &mut [K::Item<D>]) -> Result<(), StepError> + Send,
+) -> impl Stage<World<D>> {
+    stage(name, access.writes(field), move |world: &mut World<D>| {
+        let mut column = world.free.take(field)?;
+        fill(world, &mut column)?;
+        Ok(world.free.put(field, column)?)
+    })
+}
+
 /// Columns, walls, lists, kernel and clock.
 pub struct World<const D: usize> {
     /// Columns of the free particles.
@@ -106,6 +123,26 @@ impl<const D: usize> World<D> {
         match self.walls.points.in_sums() && !self.lists.wall.is_empty() {
             true => self.lists.wall.candidates(particle),
             false => &[],
+        }
+    }
+
+    /// The error of a step in which a particle has an impossible value of a quantity.
+    pub fn bad_value(
+        &self,
+        quantity: &'static str,
+        particle: usize,
+        value: f64,
+        reason: impl Into<String>,
+    ) -> StepError {
+        let position = self.free.get(fields::POSITION).map(|p| p[particle]);
+        let position: Vect<D> = position.unwrap_or_else(|_| Vect::zeros());
+        let identity = self.free.get(fields::IDENTITY).map(|i| i[particle]);
+        StepError::Bad {
+            quantity,
+            particle: identity.unwrap_or(particle as u32),
+            position: position.iter().copied().collect(),
+            value,
+            reason: reason.into(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The Newtonian fluid.
 
-use crate::{Inputs, Needs, Rheology, plugin};
+use crate::{GeneralisedNewtonian, plugin};
 
 /// τ = 2 η γ̇ with constant η.
 ///
@@ -17,34 +17,14 @@ pub struct Newtonian {
     pub viscosity: f64,
 }
 
-impl Rheology for Newtonian {
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-    fn uniform_viscosity(&self) -> Option<f64> {
-        Some(self.viscosity)
-    }
-    fn viscosity(&self, _inputs: &Inputs<'_>, viscosity: &mut [f64]) {
-        viscosity.fill(self.viscosity);
-    }
-    fn largest_viscosity(&self) -> f64 {
+impl GeneralisedNewtonian for Newtonian {
+    fn at(&self, _strain_rate: f64) -> f64 {
         self.viscosity
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use sph_core::Registry;
-
-    use crate::RheologyEntry;
-
-    #[test]
-    fn the_registered_law_reads_units_and_refuses_negative_viscosity() {
-        let entry = Registry::<RheologyEntry>::discovered().unwrap();
-        let entry = entry.find("newtonian").unwrap();
-        let law = (entry.build)(&toml::from_str("viscosity = '2 mPa s'").unwrap()).unwrap();
-        assert_eq!(law.uniform_viscosity(), Some(2e-3));
-        let refused = (entry.build)(&toml::from_str("viscosity = -1").unwrap()).unwrap_err();
-        assert!(refused.to_string().contains("at least 0 Pa s"), "{refused}");
+    fn uniform(&self) -> Option<f64> {
+        Some(self.viscosity)
+    }
+    fn largest(&self) -> f64 {
+        self.viscosity
     }
 }

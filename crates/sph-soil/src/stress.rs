@@ -35,7 +35,6 @@ mod strain_rate;
 
 pub use adjoint::AdjointDivergence;
 pub use blended::Blended;
-pub use contribution::ElasticWaveLimit;
 pub use coulomb::CoulombFriction;
 pub use displacement::{Displacement, DisplacementForce};
 pub use divergence::{Divergence, HourglassDamping, StressDivergence};
@@ -46,6 +45,7 @@ pub use gradient::{
     Isotropic, NeighbourSums, Renormalised, SymmetricDifference, VelocityGradient,
     VelocityGradientEntry,
 };
+pub(crate) use laplace::conjugate_gradient;
 pub use laplace::{EffectivePressureEntry, Laplace, PressureSolver, Soils};
 pub use law_inputs::{Blend, LawInputs};
 pub use strain_rate::GradientStage;

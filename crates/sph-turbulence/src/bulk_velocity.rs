@@ -1,9 +1,10 @@
 //! A flow rate that is held.
 
 use sph_contribution::{
-    Contribution, Offer, Refusal, Setting, StepHook, StepMoment, StepPhase, contribution_kind,
+    Contribution, Offer, Refusal, Setting, StepPhase, contribution_kind, step_hook,
 };
 use sph_core::{Access, Axis, StepError, Work, fields, plugin};
+use sph_neighbours::World;
 
 contribution_kind!(
     /// A control of the flow rate that a scene may name.
@@ -39,7 +40,12 @@ impl<const D: usize> Contribution<D> for BulkVelocity {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let axis = self.axis as usize;
         if axis < D && setting.world.domain.periodic[axis] {
-            offer.hook(*self);
+            let access = Access::none()
+                .here((fields::MASS, fields::VELOCITY))
+                .writes(fields::VELOCITY);
+            let (bulk, phases) = (self.velocity, &[StepPhase::AfterKick]);
+            let hold = move |world: &mut World<D>, _| held(world, bulk, axis);
+            offer.hook(step_hook("bulk velocity", access, phases, hold));
             return Ok(());
         }
         let why = "the flow rate is held along an axis in which the scene is periodic: name another, or give \
@@ -48,26 +54,12 @@ impl<const D: usize> Contribution<D> for BulkVelocity {
     }
 }
 
-impl<const D: usize> StepHook<D> for BulkVelocity {
-    fn name(&self) -> String {
-        "bulk velocity".into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here((fields::MASS, fields::VELOCITY))
-            .writes(fields::VELOCITY)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::AfterKick]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        let world = &mut *moment.world;
-        let axis = self.axis as usize;
-        let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
-        let [total, momentum] = world.sums(|i: usize| [mass[i], mass[i] * velocity[i][axis]])?;
-        let mut velocity = world.free.take(fields::VELOCITY)?;
-        let push = self.velocity - momentum / total;
-        velocity.iter_mut().for_each(|u| u[axis] += push);
-        Ok(world.free.put(fields::VELOCITY, velocity)?)
-    }
+/// Pushes all particles until their mean velocity along an axis is `bulk`, m/s.
+fn held<const D: usize>(world: &mut World<D>, bulk: f64, axis: usize) -> Result<(), StepError> {
+    let (velocity, mass) = world.free.all((fields::VELOCITY, fields::MASS))?;
+    let [total, momentum] = world.sums(|i: usize| [mass[i], mass[i] * velocity[i][axis]])?;
+    let push = bulk - momentum / total;
+    let velocity = world.free.get_mut(fields::VELOCITY)?;
+    velocity.iter_mut().for_each(|u| u[axis] += push);
+    Ok(())
 }

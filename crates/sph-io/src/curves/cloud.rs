@@ -59,30 +59,22 @@ impl<'a> Cloud<'a> {
         }
     }
 
-    /// The points nearer to `x` than the radius of the fit, with r_j − x.
-    fn neighbours(&self, x: [f64; 3]) -> impl Iterator<Item = (u32, [f64; 3])> {
-        let reach = RADIUS * self.spacing;
-        let apart = move |&j: &u32| {
-            let r = self.points[j as usize];
-            (j, [0, 1, 2].map(|k| r[k] - x[k]))
-        };
-        let here = self.cells.around(zyx(x)).map(apart);
-        here.filter(move |(_, d)| square(d) < reach * reach)
-    }
-
     /// The share of every particle around in the value at a place (m); nothing outside of the fluid.
     pub fn weights(&self, x: [f64; 3]) -> Option<Weights> {
         let reach = RADIUS * self.spacing;
         let mut matrix = Matrix4::<f64>::zeros();
         let mut near: Vec<(u32, f64, Vector4<f64>)> = Vec::new();
         let mut nearest = f64::INFINITY;
-        for (j, d) in self.neighbours(x) {
+        for &j in self.cells.around(zyx(x)) {
+            let d = [0, 1, 2].map(|k| self.points[j as usize][k] - x[k]);
             let r2 = square(&d);
-            nearest = nearest.min(r2);
-            let weight = (1.0 - r2 / (reach * reach)).powi(2);
-            let basis = Vector4::new(1.0, d[0] / reach, d[1] / reach, d[2] / reach);
-            matrix.ger(weight, &basis, &basis, 1.0);
-            near.push((j, weight, basis));
+            if r2 < reach * reach {
+                nearest = nearest.min(r2);
+                let weight = (1.0 - r2 / (reach * reach)).powi(2);
+                let basis = Vector4::new(1.0, d[0] / reach, d[1] / reach, d[2] / reach);
+                matrix.ger(weight, &basis, &basis, 1.0);
+                near.push((j, weight, basis));
+            }
         }
         if nearest.sqrt() > INSIDE * self.spacing {
             return None;

@@ -117,7 +117,7 @@ impl Mark<'_> {
             return;
         }
         for stretch in self.stretches(axes) {
-            self.draw_stretch(on, &stretch, axes.size);
+            self.draw_marked(on, &thinned(&stretch), &stretch, axes.size);
         }
     }
 
@@ -129,27 +129,21 @@ impl Mark<'_> {
             let [(a, b), (c, d)] = [(from[0], from[1] - half), (to[0], to[1] + half)];
             return on.area(&[[a, b], [c, b], [c, d], [a, d]], self.band_fill());
         }
-        if *style != Style::Markers {
-            on.line(&[from, to], self.pen(size));
-        }
-        if matches!(style, Style::Markers | Style::LineAndMarkers) {
-            self.draw_marker(on, [(from[0] + to[0]) / 2.0, from[1]], size);
-        }
+        let middle = [(from[0] + to[0]) / 2.0, from[1]];
+        self.draw_marked(on, &[from, to], &[middle], size);
     }
 
-    fn draw_stretch(&self, on: &mut dyn DrawTarget, stretch: &[Spot], size: f64) {
+    /// A line and marks, as far as the style has them.
+    fn draw_marked(&self, on: &mut dyn DrawTarget, line: &[Spot], marks: &[Spot], size: f64) {
         let style = &self.series.style;
         if *style != Style::Markers {
-            on.line(&thinned(stretch), self.pen(size));
+            on.line(line, self.pen(size));
         }
-        if matches!(style, Style::Markers | Style::LineAndMarkers) {
-            for &spot in stretch {
-                self.draw_marker(on, spot, size);
-            }
-        }
-        if *style == Style::Background {
-            for &spot in stretch {
-                on.disc(spot, 0.14 * size, Fill::solid(self.colour()));
+        for &spot in marks {
+            match style {
+                Style::Markers | Style::LineAndMarkers => self.draw_marker(on, spot, size),
+                Style::Background => on.disc(spot, 0.14 * size, Fill::solid(self.colour())),
+                _ => {}
             }
         }
     }

@@ -51,7 +51,6 @@ impl Picture<'_> {
         }
     }
 
-    /// The particles as one surface, seen from above.
     fn draw_surface(&self, canvas: &mut Canvas, axes: &Axes, range: [f64; 2]) {
         let mut relief = Relief::within(axes);
         for (i, point) in self.points.iter().enumerate() {

@@ -147,11 +147,8 @@ impl<'a> Picture<'a> {
         let (points, values) = (self.points.len(), self.values.len());
         let sizes = self.diameters.len();
         let sound = |d: &&f64| d.is_finite() && **d >= 0.0;
-        let bad = self
-            .diameters
-            .iter()
-            .chain([&self.diameter])
-            .find(|d| !sound(d));
+        let mut diameters = self.diameters.iter().chain([&self.diameter]);
+        let bad = diameters.find(|d| !sound(d));
         let rising = |r: &[f64; 2]| r[0] < r[1] && (r[1] - r[0]).is_finite();
         let range = self.range.filter(|r| !rising(r));
         let window = self.window.filter(|w| !w.iter().all(rising));

@@ -1,6 +1,6 @@
 //! The columns of the pores of a soil, and its particles.
 
-use sph_core::{Access, StepError, fields};
+use sph_core::{Field, Index, StepError, fields};
 use sph_neighbours::World;
 
 sph_core::fields! {
@@ -27,12 +27,9 @@ sph_core::fields! {
 pub(crate) struct PhaseMask(pub Option<u32>);
 
 impl PhaseMask {
-    /// Adds the columns that [`test`](Self::test) reads.
-    pub fn access(self, access: Access) -> Access {
-        match self.0 {
-            None => access,
-            Some(_) => access.both(fields::PHASE),
-        }
+    /// The column that [`test`](Self::test) reads, if any.
+    pub fn column(self) -> Option<Field<Index>> {
+        self.0.map(|_| fields::PHASE)
     }
 
     /// The test whether a particle is in it.
@@ -40,10 +37,7 @@ impl PhaseMask {
         self,
         world: &World<D>,
     ) -> Result<impl Fn(usize) -> bool + Copy + Sync, StepError> {
-        let phase = match self.0 {
-            None => None,
-            Some(number) => Some((world.free.get(fields::PHASE)?, number)),
-        };
+        let phase = world.free.all(self.column())?.zip(self.0);
         Ok(move |i: usize| phase.is_none_or(|(phase, number)| phase[i] == number))
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sph_contribution::{
     Birth, Contribution, FromPlugins, Offer, OwnColumn, Plugins, Refusal, Setting, contributes,
 };
-use sph_core::{fields, suggestion};
+use sph_core::fields;
 
 use super::columns::{
     EARLIER_DRAINED_PRESSURE, EXCESS_PORE_PRESSURE, GRAIN_VOLUME, PACKING, PhaseMask,
@@ -133,9 +133,8 @@ impl<const D: usize> Pores<D> {
         }
         let mut named = settings.bodies.keys();
         if let Some(name) = named.find(|name| !setting.bodies.contains(name)) {
-            let near = suggestion(name, setting.bodies.iter().map(String::as_str));
-            let why = format!("there is no body called `{name}`{near}");
-            return Err(Refusal::at_key(KIND, format!("bodies.{name}"), why));
+            let (key, known) = (format!("bodies.{name}"), setting.bodies);
+            return Err(Refusal::unknown(KIND, key, "body called", name, known));
         }
         let Some(law) = &self.law else {
             return Ok(soil);
@@ -175,11 +174,9 @@ impl<const D: usize> Pores<D> {
             return Err(Refusal::at_key(KIND, "supply", why));
         }
         let found = walls.names.iter().position(|name| *name == supply.wall);
-        let found = found.ok_or_else(|| {
-            let near = suggestion(&supply.wall, walls.names.iter().map(String::as_str));
-            let why = format!("there is no wall called `{}`{near}", supply.wall);
-            Refusal::at_key(KIND, "supply.wall", why)
-        })?;
+        let (name, known) = (&supply.wall, &walls.names);
+        let unknown = || Refusal::unknown(KIND, "supply.wall", "wall called", name, known);
+        let found = found.ok_or_else(unknown)?;
         Ok(Some((found as u32, supply)))
     }
 

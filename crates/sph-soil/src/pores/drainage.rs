@@ -2,13 +2,13 @@
 
 use sph_core::{Pool, StepError, Vect, fields};
 use sph_multiphase::linear::{
-    Assembly, ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix, Preconditioner,
-    Rows,
+    Assembly, ConjugateGradient, Entries, LinearSolver, Matrix, ParticleMatrix, Rows,
 };
 use sph_neighbours::{Cluster, Lane, LanePair, PairNumbers, Particles, World};
 use sph_rheology::state::Reference;
 
 use crate::pores::{DRAINED_PRESSURE, Darcy, EXCESS_PORE_PRESSURE, Supply};
+use crate::stress::conjugate_gradient;
 
 #[derive(Default)]
 pub(crate) struct Scratch {
@@ -44,12 +44,7 @@ impl Drainage {
         let stiff = STIFF * soil.density * soil.sound_speed.powi(2);
         Drainage {
             contacts: darcy.modulus.unwrap_or(stiff),
-            solver: ConjugateGradient {
-                preconditioner: Preconditioner::IncompleteDiagonal,
-                tolerance: darcy.tolerance,
-                iterations: darcy.iterations,
-                ..ConjugateGradient::default()
-            },
+            solver: conjugate_gradient(darcy.tolerance, darcy.iterations),
             darcy,
             supply,
         }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use sph_core::{Access, Stage, StepError, fields, stage};
-use sph_neighbours::World;
+use sph_core::{Access, Stage, StepError, fields};
+use sph_neighbours::{World, column_stage};
 use sph_rheology::Yielding;
 
 use crate::dilatancy::{Dilatancy, GrainState};
@@ -12,13 +12,11 @@ use crate::stress::LawInputs;
 
 /// p' = max(p'_d + q − p_e, 0) with the load q, Pa.
 pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> impl Stage<World<D>> {
-    let access = (phase.access(Access::none()))
-        .here((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))
-        .writes(fields::EFFECTIVE_PRESSURE);
-    let name = "pressure between grains";
-    stage(name, access, move |world: &mut World<D>| {
-        let mut effective = world.free.take(fields::EFFECTIVE_PRESSURE)?;
-        let (drained, excess) = world.free.all((DRAINED_PRESSURE, EXCESS_PORE_PRESSURE))?;
+    let pressures = (DRAINED_PRESSURE, EXCESS_PORE_PRESSURE);
+    let access = Access::none().both(phase.column()).here(pressures);
+    let (name, field) = ("pressure between grains", fields::EFFECTIVE_PRESSURE);
+    column_stage::<D, _>(name, access, field, move |world, effective| {
+        let (drained, excess) = world.free.all(pressures)?;
         let soil = phase.test(world)?;
         for (i, p) in effective.iter_mut().enumerate() {
             *p = match soil(i) {
@@ -26,7 +24,7 @@ pub(crate) fn grain_pressure<const D: usize>(phase: PhaseMask, load: f64) -> imp
                 false => drained[i],
             };
         }
-        Ok(world.free.put(fields::EFFECTIVE_PRESSURE, effective)?)
+        Ok(())
     })
 }
 
@@ -36,14 +34,11 @@ pub(crate) fn dilatant_friction<const D: usize>(
     law: Arc<dyn Dilatancy>,
     friction: f64,
 ) -> impl Stage<World<D>> {
-    let access = (phase.access(Access::none()))
-        .here((fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING))
-        .writes(FRICTION_PRESSURE);
+    let state = (fields::EFFECTIVE_PRESSURE, fields::STRAIN_RATE, PACKING);
+    let access = Access::none().both(phase.column()).here(state);
     let name = "friction of dilation";
-    stage(name, access, move |world: &mut World<D>| {
-        let mut out = world.free.take(FRICTION_PRESSURE)?;
-        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
-        let (strain_rate, packing) = world.free.all((fields::STRAIN_RATE, PACKING))?;
+    column_stage::<D, _>(name, access, FRICTION_PRESSURE, move |world, out| {
+        let (effective, strain_rate, packing) = world.free.all(state)?;
         let soil = phase.test(world)?;
         out.copy_from_slice(effective);
         for i in (0..out.len()).filter(|&i| soil(i)) {
@@ -54,7 +49,7 @@ pub(crate) fn dilatant_friction<const D: usize>(
             });
             out[i] *= (1.0 + angle / friction).max(0.0);
         }
-        Ok(world.free.put(FRICTION_PRESSURE, out)?)
+        Ok(())
     })
 }
 

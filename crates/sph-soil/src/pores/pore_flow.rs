@@ -34,7 +34,8 @@ impl<const D: usize> StepHook<D> for PoreFlow {
         "pore pressure".into()
     }
     fn access(&self) -> Access {
-        let mut access = (self.soil.access(Access::none()))
+        let mut access = Access::none()
+            .both(self.soil.column())
             .both((fields::POSITION, fields::VOLUME, PACKING))
             .both(EXCESS_PORE_PRESSURE)
             .here((DRAINED_PRESSURE, EARLIER_DRAINED_PRESSURE, GRAIN_VOLUME))
@@ -247,13 +248,7 @@ impl PoreFlow {
         let Some((i, value)) = bad else {
             return Ok(());
         };
-        let position = world.free.get(fields::POSITION)?[i];
-        Err(StepError::Bad {
-            quantity: "packing",
-            particle: world.free.get(fields::IDENTITY)?[i],
-            position: position.iter().copied().collect(),
-            value,
-            reason: format!("and must stay between 0 and {densest}, the densest of the law"),
-        })
+        let reason = format!("and must stay between 0 and {densest}, the densest of the law");
+        Err(world.bad_value("packing", i, value, reason))
     }
 }

@@ -7,7 +7,6 @@ use crate::stress::soil_surface::Grains;
 
 /// A particle by which fluid goes in and out.
 pub(crate) struct Outlet {
-    /// Its index.
     pub particle: usize,
     /// Flux per pressure and mobility, m^(d−2).
     pub conductance: f64,
@@ -62,10 +61,8 @@ pub(crate) fn outlets<const D: usize>(
             fluid: shares,
         })
     };
-    Ok((0..volume.len())
-        .filter(|&i| near[i])
-        .filter_map(outlet)
-        .collect())
+    let near = (0..volume.len()).filter(|&i| near[i]);
+    Ok(near.filter_map(outlet).collect())
 }
 
 /// Particles before a wall with the flux per pressure and mobility from the wall to them, m^(d−2): 2 V |∇γ_as|/d_as.

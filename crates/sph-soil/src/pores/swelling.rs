@@ -12,7 +12,6 @@ pub(crate) struct Swelling {
     pub density: f64,
     /// The phase that gives and takes; none if the fluid is left out.
     pub fluid: Option<Phase>,
-    /// Evens out the sizes of its particles.
     pub exchange: Exchange,
 }
 

@@ -2,10 +2,22 @@
 
 use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
-use sph_neighbours::World;
+use sph_neighbours::{Contact, World};
 
 /// Below this share of a full row of particles over a place, its shear fades.
 pub(super) const WET: f64 = 0.25;
+
+/// The particles of this process that touch a bed, with their contacts.
+pub(super) fn contacts<'a, const D: usize>(
+    world: &'a World<D>,
+    bed: &Bed,
+) -> impl Iterator<Item = (usize, Contact<D>)> + use<'a, D> {
+    let (walls, owned, wall) = (&world.walls, world.owned(), bed.walls[0]);
+    let particles = walls.contacts.particles.iter().map(|i| *i as usize);
+    let own = particles.filter(move |i| owned.has(*i));
+    let all = own.flat_map(|i| (walls.contacts.of_particle(i).iter()).map(move |c| (i, c)));
+    all.filter(move |(_, c)| walls.elements.wall[c.element as usize] == wall)
+}
 
 /// Shear stress at the places of a bed, over the density of the water, m²/s²: the mean of u* u*_i, weighted with V |∇γ| and
 /// with the bilinear weights of the places around.
@@ -17,34 +29,22 @@ pub(super) fn shear<const D: usize>(
 ) -> Result<Vec<[f64; 2]>, StepError> {
     let (friction, velocity) = world.free.all((fields::WALL_FRICTION, fields::VELOCITY))?;
     let (density, volume) = world.free.all((fields::DENSITY, fields::VOLUME))?;
-    let (walls, owned) = (&world.walls, world.owned());
-    let elements = &walls.elements;
-    let own = |element: usize| elements.wall[element] == bed.walls[0];
+    let elements = &world.walls.elements;
     let count = bed.grid.len();
     let mut parts: Vec<(usize, f64)> = Vec::new();
-    for &particle in &walls.contacts.particles {
-        let i = particle as usize;
-        if !owned.has(i) || friction[i] == 0.0 {
-            continue;
-        }
-        for contact in walls.contacts.of_particle(i) {
-            let s = contact.element as usize;
-            if !own(s) {
-                continue;
-            }
-            let slip = velocity[i] - elements.velocity_at(&contact);
-            let normal = &elements.normal[s];
-            let along = slip - normal * slip.dot(normal);
-            let weight = volume[i] * contact.gradient.norm();
-            let stress = friction[i] / density[i];
-            let at = horizontal(&elements.centre[s].into());
-            for (place, share) in bed.grid.around(at) {
-                let part = weight * share;
-                parts.push((place, part));
-                parts.push((count + place, part * stress * along[0]));
-                if D == 3 {
-                    parts.push((2 * count + place, part * stress * along[1]));
-                }
+    for (i, contact) in contacts(world, bed).filter(|(i, _)| friction[*i] != 0.0) {
+        let s = contact.element as usize;
+        let slip = velocity[i] - elements.velocity_at(&contact);
+        let normal = &elements.normal[s];
+        let along = slip - normal * slip.dot(normal);
+        let weight = volume[i] * contact.gradient.norm();
+        let stress = friction[i] / density[i];
+        for (place, share) in bed.grid.around(horizontal(&elements.centre[s].into())) {
+            let part = weight * share;
+            parts.push((place, part));
+            parts.push((count + place, part * stress * along[0]));
+            if D == 3 {
+                parts.push((2 * count + place, part * stress * along[1]));
             }
         }
     }

@@ -1,8 +1,7 @@
 //! Beds that bed load moves.
 
 use sph_contribution::{
-    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, StepHook, StepMoment, StepPhase,
-    contributes,
+    Contribution, FromPlugins, Offer, Plugins, Refusal, Setting, StepPhase, contributes, step_hook,
 };
 use sph_core::bed::Bed;
 use sph_core::{Access, StepError, Work, contract, fields, parameters};
@@ -160,11 +159,22 @@ impl<const D: usize> Contribution<D> for BedLoadOfScene<D> {
             return refused("", &why);
         }
         offer.goals.push(fields::WALL_FRICTION.any());
-        offer.hook(BedLoad {
+        let bed_load = BedLoad {
             grains: moving.grains(viscosity, density, gravity),
             bed: moving,
             law,
-        });
+        };
+        let access = Access::none()
+            .here((fields::WALL_FRICTION, fields::VELOCITY, fields::DENSITY))
+            .here(fields::VOLUME);
+        let work = move |world: &mut World<D>, dt: f64| {
+            let mut beds = std::mem::take(&mut world.walls.beds);
+            let mut all = beds.iter_mut();
+            let done = all.try_for_each(|bed| bed_load.step(world, bed, dt));
+            world.walls.beds = beds;
+            done
+        };
+        offer.hook(step_hook(KIND, access, &[StepPhase::BeforeDrift], work));
         Ok(())
     }
 }
@@ -252,10 +262,7 @@ fn gradient(bed: &Bed, place: usize) -> [f64; 2] {
     let grid = &bed.grid;
     [0, 1].map(|axis| {
         let seen = |other: Option<usize>| other.filter(|p| *p != place && !bed.covered[*p]);
-        let (before, after) = (
-            seen(grid.step(place, axis, -1)),
-            seen(grid.step(place, axis, 1)),
-        );
+        let [before, after] = [-1, 1].map(|step| seen(grid.step(place, axis, step)));
         let ways = f64::from(u8::from(before.is_some()) + u8::from(after.is_some()));
         match ways > 0.0 {
             true => {
@@ -265,25 +272,4 @@ fn gradient(bed: &Bed, place: usize) -> [f64; 2] {
             false => 0.0,
         }
     })
-}
-
-impl<const D: usize> StepHook<D> for BedLoad {
-    fn name(&self) -> String {
-        KIND.into()
-    }
-    fn access(&self) -> Access {
-        Access::none()
-            .here((fields::WALL_FRICTION, fields::VELOCITY, fields::DENSITY))
-            .here(fields::VOLUME)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::BeforeDrift]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        let mut beds = std::mem::take(&mut moment.world.walls.beds);
-        let mut all = beds.iter_mut();
-        let done = all.try_for_each(|bed| self.step(moment.world, bed, moment.dt));
-        moment.world.walls.beds = beds;
-        done
-    }
 }

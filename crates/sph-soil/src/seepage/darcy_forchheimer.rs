@@ -2,10 +2,10 @@
 
 use sph_contribution::{Contribution, Offer, Refusal, Setting};
 use sph_core::{fields, plugin};
-use sph_multiphase::linear::{ConjugateGradient, Preconditioner};
 
 use crate::seepage::pore_water::Seeps;
 use crate::seepage::{Exchange, Phase, PoreResistance, SeepageEntry};
+use crate::stress::conjugate_gradient;
 
 /// C q̇ + a q + b |q| q = −∇p + ρ_w (g − Du_s/Dt), div q = 0 in the soil.
 ///
@@ -107,12 +107,7 @@ impl<const D: usize> Contribution<D> for DarcyForchheimer {
         offer.hook(Seeps {
             resistance: self.resistance(phase.density)?,
             phase,
-            solver: ConjugateGradient {
-                preconditioner: Preconditioner::IncompleteDiagonal,
-                tolerance: self.tolerance,
-                iterations: self.iterations,
-                ..ConjugateGradient::default()
-            },
+            solver: conjugate_gradient(self.tolerance, self.iterations),
             exchange: Exchange {
                 evening: self.evening,
                 limit: self.size_limit,

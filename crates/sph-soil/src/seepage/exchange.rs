@@ -43,7 +43,6 @@ impl Phase {
 /// One way of the water, from a particle to a neighbour.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link<const D: usize> {
-    /// The neighbour.
     pub to: u32,
     /// Flux per drop of the potential, m^d/(Pa s).
     pub conductance: f64,
@@ -67,15 +66,13 @@ pub(crate) struct Net<const D: usize> {
     pub links: Vec<Vec<Link<D>>>,
 }
 
-impl<const D: usize> Net<D> {
-    /// Place of every particle in the net.
-    pub fn slots(&self, particles: usize) -> Vec<u32> {
-        let mut slot = vec![u32::MAX; particles];
-        for (k, &i) in self.particles.iter().enumerate() {
-            slot[i as usize] = k as u32;
-        }
-        slot
+/// Places of some of `count` particles in their list.
+pub(crate) fn places(particles: impl Iterator<Item = u32>, count: usize) -> Vec<u32> {
+    let mut place = vec![u32::MAX; count];
+    for (k, i) in (0..).zip(particles) {
+        place[i as usize] = k;
     }
+    place
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -219,16 +216,10 @@ impl Exchange {
         if (size - 1.0).abs() <= self.limit {
             return Ok(());
         }
-        let position = world.free.get(fields::POSITION)?[i];
-        Err(StepError::Bad {
-            quantity: "size",
-            particle: world.free.get(fields::IDENTITY)?[i],
-            position: position.iter().copied().collect(),
-            value: size,
-            reason: format!(
-                "as the soil beside it has given or taken more than {} of its water: {}",
-                self.limit, self.remedy
-            ),
-        })
+        let reason = format!(
+            "as the soil beside it has given or taken more than {} of its water: {}",
+            self.limit, self.remedy
+        );
+        Err(world.bad_value("size", i, size, reason))
     }
 }

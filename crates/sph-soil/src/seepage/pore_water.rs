@@ -8,7 +8,7 @@ use sph_multiphase::linear::{
 };
 use sph_neighbours::{Around, Neighbourhood, World, trusted_inverse, walk_some};
 
-use crate::seepage::exchange::{Link, Net};
+use crate::seepage::exchange::{Link, Net, places};
 use crate::seepage::{Exchange, Phase, PoreResistance, SEEPAGE_PRESSURE, SEEPAGE_VELOCITY};
 
 struct Columns<'a, const D: usize> {
@@ -82,7 +82,7 @@ impl<const D: usize> Seeps<D> {
     fn advance(&mut self, world: &mut World<D>, dt: f64) -> Result<(), StepError> {
         let mut net = self.net(world, dt)?;
         let pressure = self.pressures(world, &net)?;
-        let slot = net.slots(world.free.len());
+        let slot = places(net.particles.iter().copied(), world.free.len());
         for (links, p) in net.links.iter_mut().zip(&pressure) {
             for link in links {
                 let drop = p - pressure[slot[link.to as usize] as usize];
@@ -225,11 +225,8 @@ impl<const D: usize> Seeps<D> {
         let mut seeping = world.free.take(SEEPAGE_PRESSURE)?;
         let (phase, present) = world.free.all((fields::PHASE, fields::PRESSURE))?;
         let soil = |i: u32| phase[i as usize] == self.phase.soil;
-        let mut row = vec![u32::MAX; phase.len()];
-        let grounds = net.particles.iter().filter(|i| soil(**i));
-        for (k, &i) in grounds.enumerate() {
-            row[i as usize] = k as u32;
-        }
+        let grounds = net.particles.iter().copied().filter(|i| soil(*i));
+        let row = places(grounds, phase.len());
         let space = world.space()?;
         let (mut pattern, mut values) = (Pattern::default(), Values::default());
         let mut places = Vec::new();

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, SMatrix};
-use sph_core::{Access, Stage, StepError, Symmetric, Vect, fields, stage};
+use sph_core::{Access, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, WallPoints,
-    World, dot, scaled, walk_in_lanes,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallPoints, World, column_stage, dot,
+    pair_sum, pair_term, scaled, walk_in_lanes,
 };
 
 use crate::stress::strain_rate::in_space;
@@ -18,10 +18,9 @@ pub(crate) fn stress_correction<const D: usize>(
 ) -> impl Stage<World<D>> {
     let access = Access::none()
         .both(fields::POSITION)
-        .neighbours(fields::VOLUME)
-        .writes(fields::STRESS_CORRECTION);
-    stage("stress correction", access, move |world: &mut World<D>| {
-        let mut corrections = world.free.take(fields::STRESS_CORRECTION)?;
+        .neighbours(fields::VOLUME);
+    let (name, field) = ("stress correction", fields::STRESS_CORRECTION);
+    column_stage::<D, _>(name, access, field, move |world, corrections| {
         let volume = world.free.get(fields::VOLUME)?;
         let (points, elements) = (&world.walls.points, &world.walls.elements);
         let correction = |free: [[f64; D]; D], rows: &Neighbourhood<'_, D>| {
@@ -41,8 +40,13 @@ pub(crate) fn stress_correction<const D: usize>(
             })
         };
         let free = FreePositions { volume };
-        walk_in_lanes(world, &free, |_| true, &mut corrections, correction)?;
-        Ok(world.free.put(fields::STRESS_CORRECTION, corrections)?)
+        Ok(walk_in_lanes(
+            world,
+            &free,
+            |_| true,
+            corrections,
+            correction,
+        )?)
     })
 }
 
@@ -51,13 +55,8 @@ struct FreePositions<'a> {
     volume: &'a [f64],
 }
 
-impl<const D: usize> PairSum<D> for FreePositions<'_> {
-    type Own<L: Lane> = ();
-    type Sum<L: Lane> = [[L; D]; D];
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, _: Particles) {}
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize> FreePositions<'_> {
     fn pair<L: Lane>(&self, _: &(), j: usize, pair: &LanePair<D, L>, sums: &mut [[L; D]; D]) {
         let weight = scaled(pair.separation, L::splat(self.volume[j]) * pair.factor);
         for (row, along) in sums.iter_mut().zip(pair.separation) {
@@ -78,49 +77,40 @@ impl<const D: usize> PairSum<D> for FreePositions<'_> {
 #[derive(Clone, Copy, Debug)]
 pub struct AdjointDivergence;
 
-impl<const D: usize> PairTerm<D> for AdjointDivergence {
-    type Bound<'a> = BoundAdjoint<'a, D>;
+/// τCᵀ of all particles.
+struct CorrectedStress;
 
-    fn name(&self) -> String {
-        "adjoint stress divergence".into()
-    }
+impl CorrectedStress {
     fn access(&self) -> Access {
-        Access::none()
-            .both((fields::CARRIED_STRESS, fields::STRESS_CORRECTION))
-            .both(fields::VOLUME)
-            .here(fields::MASS)
+        Access::none().both((fields::CARRIED_STRESS, fields::STRESS_CORRECTION))
     }
-    fn bind<'a>(&'a self, world: &'a World<D>) -> Result<BoundAdjoint<'a, D>, StepError> {
+    fn bind<const D: usize>(&self, world: &World<D>) -> Result<Vec<SMatrix<f64, D, D>>, StepError> {
         let stress = world.free.get(fields::CARRIED_STRESS)?.iter();
         let both = stress.zip(world.free.get(fields::STRESS_CORRECTION)?);
         // Rows that are taken for columns are those of the transpose.
         let product = |t: &Symmetric, c| t.matrix() * Matrix3::from(in_space(c));
-        Ok(BoundAdjoint {
-            stress: both
-                .map(|(t, c)| product(t, c).fixed_view::<D, D>(0, 0).into_owned())
-                .collect(),
-            volume: world.free.get(fields::VOLUME)?,
-            mass: world.free.get(fields::MASS)?,
-            points: &world.walls.points,
-        })
+        Ok(both
+            .map(|(t, c)| product(t, c).fixed_view::<D, D>(0, 0).into_owned())
+            .collect())
     }
 }
 
 /// [`AdjointDivergence`] with its columns.
+#[pair_term(AdjointDivergence, "adjoint stress divergence")]
 pub struct BoundAdjoint<'a, const D: usize> {
-    /// τCᵀ.
+    #[bound(CorrectedStress)]
     stress: Vec<SMatrix<f64, D, D>>,
+    #[both(fields::VOLUME)]
     volume: &'a [f64],
+    #[here(fields::MASS)]
     mass: &'a [f64],
+    #[value(&world.walls.points)]
     points: &'a WallPoints<D>,
 }
 
-impl<const D: usize> PairSum<D> for BoundAdjoint<'_, D> {
+#[pair_sum]
+impl<const D: usize> BoundAdjoint<'_, D> {
     /// τCᵀ, row by row.
-    type Own<L: Lane> = [[L; D]; D];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [[L; D]; D] {
         let mut own = [[L::splat(0.0); D]; D];
         for (k, row) in own.iter_mut().enumerate() {
@@ -129,7 +119,6 @@ impl<const D: usize> PairSum<D> for BoundAdjoint<'_, D> {
         own
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &[[L; D]; D], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let weight = L::splat(self.volume[j]) * pair.factor;
         for (i, (sum, own)) in sum.iter_mut().zip(own).enumerate() {
@@ -140,10 +129,7 @@ impl<const D: usize> PairSum<D> for BoundAdjoint<'_, D> {
             *sum += dot(&row, &pair.separation) * weight;
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundAdjoint<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let stress = &self.stress[i];

@@ -47,7 +47,6 @@ impl Part {
 pub(crate) struct Couplings<'a, const D: usize> {
     /// The rows that count.
     pub owned: &'a Owned,
-    /// Role of every particle.
     pub parts: &'a [Part],
     /// Of every particle, m^d.
     pub volume: &'a [f64],

@@ -1,6 +1,6 @@
 //! Forces of which a share acts.
 
-use sph_core::{Access, Field, Scalar, StepError, Vect, fields};
+use sph_core::{Access, Field, Index, Scalar, StepError, Vect, fields};
 use sph_neighbours::{
     ContactRow, Interaction, Neighbourhood, Rates, Row, RowTerm, WithTerm, World,
 };
@@ -43,6 +43,10 @@ impl<const D: usize> Blended<D> {
             apart: Vec::new(),
         }
     }
+
+    fn phase(&self) -> Option<Field<Index>> {
+        (!self.apart.is_empty()).then_some(fields::PHASE)
+    }
 }
 
 /// Phases of all particles, and which of them act wholly.
@@ -55,18 +59,13 @@ impl<const D: usize> Interaction<D> for Blended<D> {
 
     fn access(&self) -> Access {
         let access = self.term.access().here(self.share);
-        match self.apart.is_empty() {
-            true => access,
-            false => access.both(fields::PHASE),
-        }
+        access.both(self.phase())
     }
 
     fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
         let share = world.free.get(self.share)?;
-        let apart = match &self.apart[..] {
-            [] => None,
-            apart => Some((world.free.get(fields::PHASE)?, apart)),
-        };
+        let phase = world.free.all(self.phase())?;
+        let apart = phase.map(|phase| (phase, &self.apart[..]));
         self.term.with_columns(world, &mut |term| {
             with(&BoundBlended { term, share, apart })
         })

@@ -4,5 +4,4 @@ mod elasticity;
 mod friction;
 mod materials;
 
-pub use elasticity::ElasticWaveLimit;
 pub(crate) use materials::Materials;

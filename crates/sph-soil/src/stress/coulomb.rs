@@ -73,16 +73,13 @@ impl CoulombFriction {
     }
 
     fn soil<'a, const D: usize>(&'a self, world: &'a World<D>) -> Result<Soil<'a, D>, StepError> {
-        let effective = match self.pressure == fields::PRESSURE {
-            true => None,
-            false => Some(world.free.get(self.pressure)?),
-        };
+        let differs = self.pressure != fields::PRESSURE;
         Ok(Soil {
             phase: world.free.get(fields::PHASE).ok(),
             rubs: &self.rubs,
             velocity: world.free.get(fields::VELOCITY)?,
             pressure: world.free.get(fields::PRESSURE)?,
-            effective,
+            effective: world.free.all(differs.then_some(self.pressure))?,
             stress: world.free.get(fields::CARRIED_STRESS).ok(),
             volume: world.free.get(fields::VOLUME)?,
             mass: world.free.get(fields::MASS)?,

@@ -3,8 +3,8 @@
 use sph_core::{Symmetric, Vect, fields, plugin};
 use sph_multiphase::viscosity::{EspanolRevenga, OnLattice, PairFriction};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
-    minus, pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, dot, minus, pair_sum,
+    pair_term,
 };
 
 use crate::stress::divergence::Sum;
@@ -101,18 +101,6 @@ pub struct BoundDisplacement<'a, const D: usize> {
     spacing: f64,
 }
 
-impl<const D: usize> BoundDisplacement<'_, D> {
-    /// 𝒢 of a particle, Pa, and the share of it that acts in the sums.
-    #[inline(always)]
-    fn solid(&self, i: usize) -> [f64; 2] {
-        let share = match self.blend {
-            Blend::Stresses => self.share[i],
-            Blend::Forces => 1.0,
-        };
-        [self.moduli[self.phase.map_or(0, |p| p[i] as usize)], share]
-    }
-}
-
 /// The own values of a particle.
 #[derive(Clone, Copy)]
 pub struct Own<const D: usize, L> {
@@ -123,11 +111,17 @@ pub struct Own<const D: usize, L> {
     volume: L,
 }
 
-impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
-    type Own<L: Lane> = Own<D, L>;
-    type Sum<L: Lane> = [L; D];
+#[pair_sum]
+impl<const D: usize> BoundDisplacement<'_, D> {
+    /// 𝒢 of a particle, Pa, and the share of it that acts in the sums.
+    fn solid(&self, i: usize) -> [f64; 2] {
+        let share = match self.blend {
+            Blend::Stresses => self.share[i],
+            Blend::Forces => 1.0,
+        };
+        [self.moduli[self.phase.map_or(0, |p| p[i] as usize)], share]
+    }
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [modulus, stiffness] = all.each(|i| {
             let [modulus, share] = self.solid(i);
@@ -142,7 +136,6 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
         }
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let [modulus, share] = self.solid(j);
         let zero = L::splat(0.0);
@@ -169,10 +162,7 @@ impl<const D: usize> PairSum<D> for BoundDisplacement<'_, D> {
             *sum += own.modulus.where_positive(force, zero);
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundDisplacement<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (displacement, volume) = (self.displacement[i], self.volume[i]);

@@ -3,8 +3,7 @@
 use nalgebra::SMatrix;
 use sph_core::{Field, Symmetric, SymmetricTensor, Vect, fields, plugin};
 use sph_neighbours::{
-    BoundTerm, Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, dot,
-    pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, dot, pair_sum, pair_term,
 };
 
 use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
@@ -147,25 +146,17 @@ impl<const D: usize> Sum<D> {
     }
 }
 
+#[pair_sum]
 impl<const D: usize> BoundStressDivergence<'_, D> {
     /// τ V².
-    #[inline(always)]
     fn weighted(&self, i: usize) -> [f64; 6] {
         (self.stress[i] * (self.volume[i] * self.volume[i])).0
     }
-}
 
-impl<const D: usize> PairSum<D> for BoundStressDivergence<'_, D> {
-    /// τ V².
-    type Own<L: Lane> = [L; 6];
-    type Sum<L: Lane> = [L; D];
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [L; 6] {
         all.each(|i| self.weighted(i))
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &[L; 6], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let other = self.weighted(j);
         for (force, places) in sum.iter_mut().zip(Symmetric::PLACE) {
@@ -176,10 +167,7 @@ impl<const D: usize> PairSum<D> for BoundStressDivergence<'_, D> {
             *force += dot(&row, &pair.separation) * pair.factor;
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundStressDivergence<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let (stress, volume) = (self.stress[i], self.volume[i]);
@@ -243,15 +231,6 @@ pub struct BoundHourglassDamping<'a, const D: usize> {
     smoothing_length: f64,
 }
 
-impl<const D: usize> BoundHourglassDamping<'_, D> {
-    /// μ, Pa s.
-    #[inline(always)]
-    fn viscosity(&self, i: usize) -> f64 {
-        let strength = self.strength[self.phase.map_or(0, |p| p[i] as usize)];
-        self.smoothing_length * strength * self.solid[i]
-    }
-}
-
 /// u, G and μ of a particle.
 #[derive(Clone, Copy)]
 pub struct Motion<L: Lane, const D: usize> {
@@ -260,11 +239,14 @@ pub struct Motion<L: Lane, const D: usize> {
     viscosity: L,
 }
 
-impl<const D: usize> PairSum<D> for BoundHourglassDamping<'_, D> {
-    type Own<L: Lane> = Motion<L, D>;
-    type Sum<L: Lane> = [L; D];
+#[pair_sum]
+impl<const D: usize> BoundHourglassDamping<'_, D> {
+    /// μ, Pa s.
+    fn viscosity(&self, i: usize) -> f64 {
+        let strength = self.strength[self.phase.map_or(0, |p| p[i] as usize)];
+        self.smoothing_length * strength * self.solid[i]
+    }
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> Motion<L, D> {
         let mut gradient = [[L::splat(0.0); D]; D];
         for (k, row) in gradient.iter_mut().enumerate() {
@@ -278,7 +260,6 @@ impl<const D: usize> PairSum<D> for BoundHourglassDamping<'_, D> {
         }
     }
 
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &Motion<L, D>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let other = self.viscosity(j);
         if other == 0.0 {
@@ -297,10 +278,7 @@ impl<const D: usize> PairSum<D> for BoundHourglassDamping<'_, D> {
             *sum += (own.velocity[k] - L::splat(self.velocity[j][k]) - linear) * weight;
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundHourglassDamping<'_, D> {
-    #[inline(always)]
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         rates.acceleration += Vect::from(sum) * (self.volume[i] / self.mass[i]);

@@ -3,8 +3,9 @@
 use sph_contribution::{StepHook, StepMoment, StepPhase};
 use sph_core::{Access, Declares, Pool, Stage, StepError, Symmetric, Vect, fields};
 use sph_neighbours::World;
-use sph_rheology::{Elastic, Gradient, Yielding, jaumann};
+use sph_rheology::{Elastic, Gradient, jaumann};
 
+use crate::stress::law_stages::yielding;
 use crate::stress::strain_rate::{in_space, set_strain_rates};
 use crate::stress::{GradientStage, LawInputs};
 
@@ -52,8 +53,7 @@ impl<const D: usize> ElasticMotion<D> {
         self.law_inputs
             .each(world, &mut stress, |law, inputs, run, out| {
                 let Some(elastic) = law.elastic() else {
-                    out.fill(Symmetric::ZERO);
-                    return;
+                    return out.fill(Symmetric::ZERO);
                 };
                 let mut gradients = self.gradients.acquire();
                 gradients.clear();
@@ -83,8 +83,7 @@ impl<const D: usize> ElasticMotion<D> {
                     return;
                 };
                 let stress: Vec<Symmetric> = out.iter().map(|m| m.stress).collect();
-                let mut yielding = vec![Yielding::NONE; out.len()];
-                elastic.yielding(inputs, &stress, &mut yielding);
+                let yielding = yielding(elastic, inputs, &stress);
                 let moved = gradient[run.clone()].iter().zip(&velocity[run]);
                 out.iter_mut().zip(yielding).zip(moved).for_each(
                     |((memory, yielding), (gradient, velocity))| match yielding.forgets {

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{
     Access, AnyField, Declares, Field, Pool, Scalar, Stage, StepError, Vect, Work, fields,
-    parameters, plugin, stage,
+    parameters, plugin,
 };
 use sph_multiphase::linear::{
     Assembly, ConjugateGradient, Entries, Jacobi, LinearSolver, Matrix, ParticleMatrix,
     Preconditioner, Report,
 };
-use sph_neighbours::{Space, World, walk_in_lanes};
+use sph_neighbours::{Space, World, column_stage, walk_in_lanes};
 
 use crate::pores::DRAINED_PRESSURE;
 use crate::stress::bed_system::{ClusterCoefficients, Couplings, Part, start};
@@ -32,17 +32,14 @@ contribution_kind!(
 ///
 /// Source: Ghaïtanellis 2017, Eq. 5.26.
 fn pore_pressure<const D: usize>() -> impl Stage<World<D>> {
-    let access = Access::none()
-        .here((fields::PRESSURE, fields::EFFECTIVE_PRESSURE))
-        .writes(fields::PORE_PRESSURE);
-    stage("pore pressure", access, |world: &mut World<D>| {
-        let mut pore = world.free.take(fields::PORE_PRESSURE)?;
-        let whole = world.free.get(fields::PRESSURE)?;
-        let effective = world.free.get(fields::EFFECTIVE_PRESSURE)?;
+    let pressures = (fields::PRESSURE, fields::EFFECTIVE_PRESSURE);
+    let (name, access) = ("pore pressure", Access::none().here(pressures));
+    column_stage::<D, _>(name, access, fields::PORE_PRESSURE, move |world, pore| {
+        let (whole, effective) = world.free.all(pressures)?;
         let both = whole.par_iter().zip(effective);
         let all = pore.par_iter_mut().zip(both).with_min_len(2048);
         all.for_each(|(pore, (whole, effective))| *pore = whole - effective);
-        Ok(world.free.put(fields::PORE_PRESSURE, pore)?)
+        Ok(())
     })
 }
 
@@ -123,19 +120,14 @@ impl Laplace {
     fn on<const D: usize>(&self, soils: Soils) -> Solve<D> {
         let buoyant = |density: f64| (density - self.pore_density).max(0.0);
         Solve {
+            law: *self,
             target: fields::EFFECTIVE_PRESSURE,
             buoyant: soils.into_iter().map(|s| s.map(buoyant)).collect(),
-            surface_depth: self.surface_depth,
-            least_depth: 0.5 * self.grain_diameter.unwrap_or(0.0),
-            interval: self.interval,
-            whole: self.solver == PressureSolver::Jacobi,
             solver: match self.solver {
-                PressureSolver::ConjugateGradient => Box::new(ConjugateGradient {
-                    preconditioner: Preconditioner::IncompleteDiagonal,
-                    tolerance: self.tolerance,
-                    iterations: self.iterations.unwrap_or(2000),
-                    ..ConjugateGradient::default()
-                }),
+                PressureSolver::ConjugateGradient => {
+                    let iterations = self.iterations.unwrap_or(2000);
+                    Box::new(conjugate_gradient(self.tolerance, iterations))
+                }
                 PressureSolver::Jacobi => Box::new(Jacobi {
                     tolerance: self.tolerance,
                     sweeps: self.iterations.unwrap_or(100_000),
@@ -179,19 +171,22 @@ impl<const D: usize> Contribution<D> for Laplace {
     }
 }
 
+/// The solver of systems of soils.
+pub(crate) fn conjugate_gradient(tolerance: f64, iterations: usize) -> ConjugateGradient {
+    ConjugateGradient {
+        preconditioner: Preconditioner::IncompleteDiagonal,
+        tolerance,
+        iterations,
+        ..ConjugateGradient::default()
+    }
+}
+
 struct Solve<const D: usize> {
+    law: Laplace,
     /// The column of the pressure: another than p' where pores are not at rest.
     target: Field<Scalar>,
     /// Δρ of every phase, kg/m³; `None` where it is no soil.
     buoyant: Vec<Option<f64>>,
-    /// β.
-    surface_depth: f64,
-    /// Depth below which no surface particle is, m.
-    least_depth: f64,
-    /// Time between solves over √(δr/|g|).
-    interval: f64,
-    /// True if the solver needs the rows of all particles.
-    whole: bool,
     solver: Box<dyn LinearSolver<1>>,
     parts: Vec<Part>,
     assembly: Assembly<f64, 1>,
@@ -204,20 +199,17 @@ impl<const D: usize> Declares for Solve<D> {
         "effective pressure".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .both((fields::POSITION, fields::VOLUME))
             // A solve starts from the last one.
-            .remembers(self.target);
-        match self.buoyant.len() {
-            1 => access,
-            _ => access.both(fields::PHASE),
-        }
+            .remembers(self.target)
+            .both((self.buoyant.len() > 1).then_some(fields::PHASE))
     }
 }
 
 impl<const D: usize> Stage<World<D>> for Solve<D> {
     fn needs_all(&self) -> Option<&'static str> {
-        self.whole.then_some(
+        (self.law.solver == PressureSolver::Jacobi).then_some(
             "its solver sweeps over the rows of all particles: take `conjugate-gradient`",
         )
     }
@@ -278,7 +270,7 @@ impl<const D: usize> Solve<D> {
 
     /// True if a multiple of the interval has passed within the last step: the same for a run that was interrupted.
     fn due(&self, world: &World<D>) -> bool {
-        let interval = self.interval * (world.spacing / world.gravity.norm()).sqrt();
+        let interval = self.law.interval * (world.spacing / world.gravity.norm()).sqrt();
         let count = |time: f64| (time / interval).floor();
         let passed = count(world.time) > count(world.time - world.dt);
         passed || world.time <= 0.0 || !(interval > 0.0 && interval.is_finite())
@@ -292,13 +284,11 @@ impl<const D: usize> Solve<D> {
         parts: &mut Vec<Part>,
     ) -> Result<(), StepError> {
         let volume = world.free.get(fields::VOLUME)?;
-        let phase = match self.buoyant.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
         let soils = &self.buoyant[..];
+        let phase = (world.free).all((soils.len() > 1).then_some(fields::PHASE))?;
         let buoyant = |i: usize| soils[phase.map_or(0, |p| p[i] as usize)];
-        let depth = (self.surface_depth * world.spacing).max(self.least_depth);
+        let least_depth = 0.5 * self.law.grain_diameter.unwrap_or(0.0);
+        let depth = (self.law.surface_depth * world.spacing).max(least_depth);
         // Over Δρ the pressure of surface particles, m²/s².
         let top = depth * world.gravity.norm();
         let positions = world.free.get(fields::POSITION)?;

@@ -3,11 +3,17 @@
 use std::ops::Range;
 
 use sph_contribution::{ParticleEnergy, StoredEnergy};
-use sph_core::{Access, Field, Scalar, StepError, Symmetric, fields, parameters};
+use sph_core::{Access, Field, Index, Scalar, StepError, Symmetric, fields, parameters};
 use sph_neighbours::{World, by_phase};
 use sph_rheology::{Inputs, Rheology, Yielding};
 
 use crate::stress::Rheologies;
+
+type OptionalColumns = (
+    Option<Field<Index>>,
+    Option<Field<Scalar>>,
+    Option<Field<Scalar>>,
+);
 
 /// The laws with the pressure that makes friction for them, and what they blend.
 #[derive(Clone)]
@@ -26,22 +32,18 @@ impl LawInputs {
         self.laws.iter().any(|l| l.needs().strain_rate)
     }
 
-    fn feels_pressure(&self) -> bool {
-        self.laws.iter().any(|l| l.needs().pressure)
+    /// Phases, strain rates and pressures, as far as the laws need them.
+    fn columns(&self) -> OptionalColumns {
+        let feels_pressure = self.laws.iter().any(|l| l.needs().pressure);
+        (
+            (self.laws.len() > 1).then_some(fields::PHASE),
+            self.strain_rate().then_some(fields::STRAIN_RATE),
+            feels_pressure.then_some(self.pressure),
+        )
     }
 
     pub(crate) fn access(&self) -> Access {
-        let mut access = Access::none();
-        if self.laws.len() > 1 {
-            access = access.here(fields::PHASE);
-        }
-        if self.strain_rate() {
-            access = access.here(fields::STRAIN_RATE);
-        }
-        match self.feels_pressure() {
-            true => access.here(self.pressure),
-            false => access,
-        }
+        Access::none().here(self.columns())
     }
 
     /// Gives every run of particles of one phase to `work`, with their law and its inputs; slices of columns
@@ -52,22 +54,11 @@ impl LawInputs {
         column: &mut [T],
         work: impl Fn(&dyn Rheology, &Inputs<'_>, Range<usize>, &mut [T]) + Sync,
     ) -> Result<(), StepError> {
-        let strain_rate = match self.strain_rate() {
-            true => world.free.get(fields::STRAIN_RATE)?,
-            false => &[],
-        };
-        let pressure = match self.feels_pressure() {
-            true => world.free.get(self.pressure)?,
-            false => &[],
-        };
-        let phase = match self.laws.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
+        let (phase, strain_rate, pressure) = world.free.all(self.columns())?;
         by_phase(phase, column, |law, run, part| {
             let inputs = Inputs {
-                strain_rate: strain_rate.get(run.clone()).unwrap_or(&[]),
-                pressure: pressure.get(run.clone()).unwrap_or(&[]),
+                strain_rate: strain_rate.map_or(&[], |rates| &rates[run.clone()]),
+                pressure: pressure.map_or(&[], |pressures| &pressures[run.clone()]),
             };
             work(&*self.laws[law], &inputs, run, part);
         });

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use sph_core::{Access, Stage, Symmetric, fields, stage};
-use sph_neighbours::World;
+use sph_neighbours::{World, column_stage};
 use sph_rheology::{Elastic, Inputs, Yielding};
 
 use crate::stress::strain_rate::in_space;
@@ -12,13 +12,10 @@ use crate::stress::{Blend, LawInputs};
 /// η of every particle by the law of its phase; where phases differ or a law depends on the flow. Where forces are
 /// blended it is that of the liquid alone. With `eddies` there is an eddy viscosity to add.
 pub(crate) fn viscosities<const D: usize>(laws: LawInputs, eddies: bool) -> impl Stage<World<D>> {
-    let mut access = laws.access().writes(fields::VISCOSITY);
-    if eddies {
-        access = access.here(fields::EDDY_VISCOSITY);
-    }
-    stage("rheology", access, move |world: &mut World<D>| {
-        let mut viscosity = world.free.take(fields::VISCOSITY)?;
-        laws.each(world, &mut viscosity, |law, inputs, _, out| {
+    let eddies = eddies.then_some(fields::EDDY_VISCOSITY);
+    let (access, field) = (laws.access().here(eddies), fields::VISCOSITY);
+    column_stage::<D, _>("rheology", access, field, move |world, viscosity| {
+        laws.each(world, viscosity, |law, inputs, _, out| {
             match law.elastic().filter(|elastic| elastic.blends()) {
                 Some(elastic) if laws.blend == Blend::Forces => {
                     elastic.liquid_viscosity(inputs, out)
@@ -26,22 +23,20 @@ pub(crate) fn viscosities<const D: usize>(laws: LawInputs, eddies: bool) -> impl
                 _ => law.viscosity(inputs, out),
             }
         })?;
-        if eddies {
-            let eddies = world.free.get(fields::EDDY_VISCOSITY)?;
+        if let Some(eddies) = world.free.all(eddies)? {
             viscosity.iter_mut().zip(eddies).for_each(|(v, e)| *v += e);
         }
-        Ok(world.free.put(fields::VISCOSITY, viscosity)?)
+        Ok(())
     })
 }
 
 /// [`CARRIED_STRESS`](fields::CARRIED_STRESS) from the remembered one; zero in phases without
 /// an elastic part. Where forces are blended it is the whole stress of the solid, cut to the yield stress.
 pub(crate) fn carried_stress<const D: usize>(laws: LawInputs) -> impl Stage<World<D>> {
-    let access = elastic_access(&laws).writes(fields::CARRIED_STRESS);
-    stage("carried stress", access, move |world: &mut World<D>| {
-        let mut carried = world.free.take(fields::CARRIED_STRESS)?;
+    let (access, field) = (elastic_access(&laws), fields::CARRIED_STRESS);
+    column_stage::<D, _>("carried stress", access, field, move |world, carried| {
         let stress = world.free.get(fields::ELASTIC_STRESS)?;
-        laws.each(world, &mut carried, |law, inputs, run, out| {
+        laws.each(world, carried, |law, inputs, run, out| {
             match law.elastic() {
                 Some(elastic) if laws.blend == Blend::Forces => {
                     let stress = &stress[run];
@@ -52,8 +47,7 @@ pub(crate) fn carried_stress<const D: usize>(laws: LawInputs) -> impl Stage<Worl
                 Some(elastic) => elastic.carried(inputs, &stress[run], out),
                 None => out.fill(Symmetric::ZERO),
             }
-        })?;
-        Ok(world.free.put(fields::CARRIED_STRESS, carried)?)
+        })
     })
 }
 
@@ -61,7 +55,11 @@ fn elastic_access(laws: &LawInputs) -> Access {
     laws.access().here(fields::ELASTIC_STRESS)
 }
 
-fn yielding(elastic: &dyn Elastic, inputs: &Inputs<'_>, stress: &[Symmetric]) -> Vec<Yielding> {
+pub(crate) fn yielding(
+    elastic: &dyn Elastic,
+    inputs: &Inputs<'_>,
+    stress: &[Symmetric],
+) -> Vec<Yielding> {
     let mut yielding = vec![Yielding::NONE; stress.len()];
     elastic.yielding(inputs, stress, &mut yielding);
     yielding

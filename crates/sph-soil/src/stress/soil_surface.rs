@@ -1,7 +1,7 @@
 //! Particles of a soil at its surface.
 
 use sph_core::Vect;
-use sph_neighbours::{Lane, LanePair, Neighbourhood, PairSum, Particles, World};
+use sph_neighbours::{Lane, LanePair, Neighbourhood, World, pair_sum};
 
 /// Half angle of the empty cone above a surface particle: cos 45° in the plane, cos 30° in space.
 fn cosine<const D: usize>() -> f64 {
@@ -22,14 +22,9 @@ pub(crate) struct Grains<'a, S> {
     pub soil: S,
 }
 
-impl<const D: usize, S: Fn(usize) -> bool + Sync> PairSum<D> for Grains<'_, S> {
-    type Own<L: Lane> = ();
+#[pair_sum]
+impl<const D: usize, S: Fn(usize) -> bool + Sync> Grains<'_, S> {
     /// The outward normal N = −Σ V ∇w, 1/m, and −Σ F, positive where there are grains.
-    type Sum<L: Lane> = ([L; D], L);
-
-    #[inline(always)]
-    fn own<L: Lane>(&self, _: Particles) {}
-    #[inline(always)]
     fn pair<L: Lane>(&self, _: &(), j: usize, pair: &LanePair<D, L>, sum: &mut ([L; D], L)) {
         if !(self.soil)(j) {
             return;

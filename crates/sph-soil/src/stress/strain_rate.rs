@@ -6,8 +6,8 @@ use nalgebra::SMatrix;
 use rayon::prelude::*;
 use sph_core::{Access, Declares, Stage, StepError, Symmetric, Vect, fields, stage};
 use sph_neighbours::{
-    BoundTerm, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, World, pair_term,
-    scaled, walk_in_lanes,
+    Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, World, pair_sum, pair_term, scaled,
+    walk_in_lanes,
 };
 use sph_rheology::Gradient;
 
@@ -30,24 +30,19 @@ impl<const D: usize> Declares for GradientStage<D> {
         "velocity gradient".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .both((fields::POSITION, fields::VELOCITY))
             .neighbours(fields::VOLUME)
-            .writes(fields::VELOCITY_GRADIENT);
-        match self.phases {
-            Some(_) => access.here(fields::PHASE),
-            None => access,
-        }
+            .writes(fields::VELOCITY_GRADIENT)
+            .here(self.phases.as_ref().map(|_| fields::PHASE))
     }
 }
 
 impl<const D: usize> Stage<World<D>> for GradientStage<D> {
     fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
         let mut gradients = world.free.take(fields::VELOCITY_GRADIENT)?;
-        let read = match &self.phases {
-            Some(phases) => Some((phases, world.free.get(fields::PHASE)?)),
-            None => None,
-        };
+        let phase = self.phases.as_ref().map(|_| fields::PHASE);
+        let read = self.phases.as_ref().zip(world.free.all(phase)?);
         if read.is_some() {
             gradients.fill(SMatrix::zeros());
         }
@@ -106,7 +101,6 @@ pub(crate) fn set_strain_rates<const D: usize>(world: &mut World<D>) -> Result<(
 /// the neighbours, their distances and the gradients of the kernel are there already.
 #[derive(Clone)]
 pub(crate) struct StrainRateTerm<const D: usize> {
-    /// The formula of the gradient.
     pub formula: Arc<dyn VelocityGradient<D>>,
 }
 
@@ -124,23 +118,11 @@ pub(crate) struct BoundGradient<'a, const D: usize> {
     slot: usize,
 }
 
+#[pair_sum]
 impl<const D: usize> BoundGradient<'_, D> {
-    #[inline(always)]
-    fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
-        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
-        gathered.gradient(self.formula, at.inverse_renormalisation)
-    }
-}
-
-impl<const D: usize> PairSum<D> for BoundGradient<'_, D> {
-    type Own<L: Lane> = [L; D];
-    type Sum<L: Lane> = LaneSums<L, D>;
-
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [L; D] {
         all.vectors(self.velocity)
     }
-    #[inline(always)]
     fn pair<L: Lane>(
         &self,
         own: &[L; D],
@@ -159,12 +141,14 @@ impl<const D: usize> PairSum<D> for BoundGradient<'_, D> {
             }
         }
     }
-}
 
-impl<const D: usize> BoundTerm<D> for BoundGradient<'_, D> {
-    #[inline(always)]
     fn finish(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.more[self.slot] += magnitude(&self.gradient(free, at));
+    }
+
+    fn gradient(&self, free: LaneSums<f64, D>, at: &Neighbourhood<'_, D>) -> SMatrix<f64, D, D> {
+        let gathered = Gathered::new(free, &self.velocity[at.particle], self.walls, at);
+        gathered.gradient(self.formula, at.inverse_renormalisation)
     }
 }
 

@@ -24,25 +24,6 @@ fn first<T: Sync>(column: &[T], bad: impl Fn(usize, &T) -> bool + Sync) -> Optio
     batches.find_map_first(in_batch)
 }
 
-fn report<const D: usize>(
-    world: &World<D>,
-    quantity: &'static str,
-    index: usize,
-    value: f64,
-    reason: String,
-) -> StepError {
-    let position = world.free.get(fields::POSITION).map(|p| p[index]);
-    let position: Vect<D> = position.unwrap_or_else(|_| Vect::zeros());
-    let identity = world.free.get(fields::IDENTITY).map(|i| i[index]);
-    StepError::Bad {
-        quantity,
-        particle: identity.unwrap_or(index as u32),
-        position: position.iter().copied().collect(),
-        value,
-        reason,
-    }
-}
-
 /// Refuses positions that are not finite or outside the domain.
 pub fn positions<const D: usize>(world: &World<D>) -> Result<(), StepError> {
     let position = world.free.get(fields::POSITION)?;
@@ -59,7 +40,7 @@ pub fn positions<const D: usize>(world: &World<D>) -> Result<(), StepError> {
         true => "outside the domain",
         false => "not finite",
     };
-    Err(report(world, "position", i, value, reason.into()))
+    Err(world.bad_value("position", i, value, reason))
 }
 
 /// Refuses densities outside their bounds and accelerations that are not finite.
@@ -82,12 +63,12 @@ pub fn rates<const D: usize>(
     };
     if let Some(i) = first(density, |i, rho| !inside(i, *rho)) {
         let reason = format!("outside {least} to {most} of the reference density");
-        return Err(report(world, "density", i, density[i], reason));
+        return Err(world.bad_value("density", i, density[i], reason));
     }
     let acceleration = world.free.get(fields::ACCELERATION)?;
     if let Some(i) = first(acceleration, |_, a| !a.norm_squared().is_finite()) {
         let value = acceleration[i].norm();
-        return Err(report(world, "acceleration", i, value, "not finite".into()));
+        return Err(world.bad_value("acceleration", i, value, "not finite"));
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! A bed as a rough wall: its keys.
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{parameters, suggestion};
+use sph_core::parameters;
 
 use crate::closures::KIND;
 use crate::wall::WallLaw;
@@ -36,10 +36,9 @@ impl RoughBed {
         setting: &Setting<'_, D>,
     ) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
-        if !setting.phases.contains(&self.phase) {
-            let near = suggestion(&self.phase, setting.phases.iter().map(String::as_str));
-            let why = format!("there is no phase `{}`{near}", self.phase);
-            return refused("bed.phase", why);
+        let (phase, known) = (&self.phase, setting.phases);
+        if !known.contains(phase) {
+            return Err(Refusal::unknown(KIND, "bed.phase", "phase", phase, known));
         }
         if acts_on.is_empty() || acts_on.contains(&self.phase) {
             let why = format!(

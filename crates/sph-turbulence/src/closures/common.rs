@@ -1,8 +1,8 @@
 //! Common refusals, needs and remarks of all closures.
 
 use sph_contribution::{Offer, Refusal, Report, Setting};
-use sph_core::{Access, StepError, fields, stage, suggestion};
-use sph_neighbours::World;
+use sph_core::{Access, StepError, fields};
+use sph_neighbours::{World, column_stage};
 
 use super::phases::{BedEddies, KIND, acting, check, viscosities};
 use crate::bed::{RoughBed, bed_shear};
@@ -11,11 +11,9 @@ use crate::distance::wall_distance;
 
 #[derive(Default)]
 pub(crate) struct ClosureCommon<'a> {
-    /// Name of the plugin.
     pub name: &'static str,
     /// Names of the phases that it acts on; empty in a scene of one.
     pub phases: &'a [String],
-    /// A bed that is a rough wall.
     pub bed: Option<&'a RoughBed>,
     /// Walls from which it reads distances, all if there are none, and beyond what distance it needs no value, m.
     pub distances: Option<(&'a [String], f64)>,
@@ -31,7 +29,6 @@ pub(crate) fn rubs<const D: usize>(setting: &Setting<'_, D>) -> bool {
 
 impl ClosureCommon<'_> {
     fn check<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
-        let refused = |key: &str, why: String| Err(Refusal::at_key(KIND, key, why));
         let name = self.name;
         check(name, self.phases, setting)?;
         if let Some(bed) = self.bed {
@@ -44,12 +41,11 @@ impl ClosureCommon<'_> {
                     "`{name}` reads the distance from walls of segments or triangles, and there are none: it needs walls \
                      with `[walls.usaw]`"
                 );
-                return refused("", why);
+                return Err(Refusal::at_key(KIND, "", why));
             }
             let mut strange = named.iter().filter(|n| !walls.names.contains(n));
             if let Some(name) = strange.next() {
-                let near = suggestion(name, walls.names.iter().map(String::as_str));
-                return refused("walls", format!("there is no wall `{name}`{near}"));
+                return Err(Refusal::unknown(KIND, "walls", "wall", name, &walls.names));
             }
         }
         Ok(())
@@ -61,7 +57,7 @@ impl ClosureCommon<'_> {
     pub fn offer_to<const D: usize>(
         &self,
         setting: &Setting<'_, D>,
-        (name, mut access): (&'static str, Access),
+        (name, access): (&'static str, Access),
         set: impl Fn(&World<D>, &mut [f64]) -> Result<(), StepError> + Send + 'static,
         offer: &mut Offer<D>,
     ) -> Result<(), Refusal> {
@@ -71,16 +67,11 @@ impl ClosureCommon<'_> {
             law: bed.law(),
             viscosities: viscosities(self.phases, setting),
         });
-        access = access.writes(fields::EDDY_VISCOSITY);
-        if acts.is_some() {
-            access = access.here(fields::PHASE);
-        }
-        if bed.is_some() {
-            access = access.here(fields::DENSITY).here(BED);
-        }
-        offer.stage(stage(name, access, move |world: &mut World<D>| {
-            let mut eddies = world.free.take(fields::EDDY_VISCOSITY)?;
-            set(world, &mut eddies)?;
+        let access = access
+            .here(acts.as_ref().map(|_| fields::PHASE))
+            .here(bed.as_ref().map(|_| (fields::DENSITY, BED)));
+        let fill = move |world: &World<D>, eddies: &mut [f64]| {
+            set(world, eddies)?;
             if let Some(acts) = &acts {
                 let phase = world.free.get(fields::PHASE)?;
                 let all = eddies.iter_mut().zip(phase);
@@ -88,10 +79,11 @@ impl ClosureCommon<'_> {
                 others.for_each(|(eddy, _)| *eddy = 0.0);
             }
             if let Some(bed) = &bed {
-                bed.set(world, &mut eddies)?;
+                bed.set(world, eddies)?;
             }
-            Ok(world.free.put(fields::EDDY_VISCOSITY, eddies)?)
-        }));
+            Ok(())
+        };
+        offer.stage(column_stage(name, access, fields::EDDY_VISCOSITY, fill));
         if let Some((walls, within)) = self.distances {
             offer.stage(wall_distance(walls.to_vec(), within));
         }

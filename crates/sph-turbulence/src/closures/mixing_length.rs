@@ -106,7 +106,6 @@ impl<const D: usize> Contribution<D> for MixingLength {
 /// L = κz, at most `longest`; L = κz√(1 − z/H) where there is a depth. Source: Issa 2004, Eq. 6.14 and 6.19.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Length {
-    /// Von Kármán's κ.
     pub karman: f64,
     /// Depth H of an open channel, m.
     pub depth: Option<f64>,

@@ -1,13 +1,12 @@
 //! Phases on which a closure acts.
 
 use sph_contribution::{Refusal, Setting};
-use sph_core::{Access, StepError, fields, suggestion};
+use sph_core::{Field, Index, StepError, fields};
 use sph_neighbours::World;
 
 use crate::columns::BED;
 use crate::wall::WallLaw;
 
-/// The kind of all closures.
 pub(crate) const KIND: &str = "eddy-viscosity";
 
 pub(crate) fn check<const D: usize>(
@@ -29,8 +28,7 @@ pub(crate) fn check<const D: usize>(
     }
     for name in named {
         let Some(k) = all.iter().position(|phase| phase == name) else {
-            let near = suggestion(name, all.iter().map(String::as_str));
-            return refused("phases", format!("there is no phase `{name}`{near}"));
+            return Err(Refusal::unknown(KIND, "phases", "phase", name, all));
         };
         if !viscous(k) && all.len() > 1 {
             let why = format!(
@@ -83,19 +81,13 @@ impl<'a> Kinematic<'a> {
         of_phase: &'a [Option<f64>],
         world: &'a World<D>,
     ) -> Result<Self, StepError> {
-        let phase = match of_phase.len() {
-            1 => None,
-            _ => Some(world.free.get(fields::PHASE)?),
-        };
+        let phase = world.free.all(Self::column(of_phase))?;
         Ok(Kinematic { of_phase, phase })
     }
 
-    /// With the column of phases, where there are several.
-    pub fn access(of_phase: &[Option<f64>], access: Access) -> Access {
-        match of_phase.len() {
-            1 => access,
-            _ => access.here(fields::PHASE),
-        }
+    /// The column of phases, where there are several.
+    pub fn column(of_phase: &[Option<f64>]) -> Option<Field<Index>> {
+        (of_phase.len() > 1).then_some(fields::PHASE)
     }
 
     /// That of a particle.
@@ -111,7 +103,6 @@ pub(crate) fn acts_on(named: &[String], phase: &str) -> bool {
 
 /// Eddies that make the shear of a rough bed.
 pub(crate) struct BedEddies {
-    /// The law of the wall over it.
     pub law: WallLaw,
     /// ν of every phase, m²/s; none of those without a bed.
     pub viscosities: Vec<Option<f64>>,

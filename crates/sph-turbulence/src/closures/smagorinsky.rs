@@ -1,7 +1,7 @@
 //! Smagorinsky's closure of large-eddy simulations, and the width of their filter.
 
 use sph_contribution::{
-    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
+    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepPhase, step_hook,
 };
 use sph_core::{Access, Field, Scalar, StepError, fields, parameters, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
@@ -144,17 +144,17 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
             eddies_in_space: true,
             ..ClosureCommon::default()
         };
-        let mut access = Access::none().here((fields::DENSITY, self.strain_rate()));
-        if self.damping == Damping::VanDriest {
-            access = access.here(DAMPING_UNITS);
-        }
+        let damped = self.damping == Damping::VanDriest;
+        let access = Access::none()
+            .here((fields::DENSITY, self.strain_rate()))
+            .here(damped.then_some(DAMPING_UNITS));
         let own = self.clone();
         let set = move |world: &World<D>, eddies: &mut [f64]| own.set(world, eddies);
         common.offer_to(setting, ("smagorinsky", access), set, offer)?;
         if self.strain_of == StrainOf::LastStep {
-            offer.hook(StrainRecorder);
+            offer.hook(strain_recorder());
         }
-        if self.damping != Damping::VanDriest {
+        if !damped {
             return Ok(());
         }
         if !rubs(setting) {
@@ -168,24 +168,14 @@ impl<const D: usize> Contribution<D> for Smagorinsky {
 }
 
 /// Keeps the strain rate of a step, which came along with its interactions, for the closure in the next one.
-struct StrainRecorder;
-
-impl<const D: usize> StepHook<D> for StrainRecorder {
-    fn name(&self) -> String {
-        "strain rate of the step".into()
-    }
-    fn access(&self) -> Access {
-        Access::none().here(fields::STRAIN_RATE).writes(LAST_STRAIN)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::AfterKick]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        let world = &mut *moment.world;
+fn strain_recorder<const D: usize>() -> impl StepHook<D> {
+    let access = Access::none().here(fields::STRAIN_RATE).writes(LAST_STRAIN);
+    let (name, phases) = ("strain rate of the step", &[StepPhase::AfterKick]);
+    step_hook(name, access, phases, |world: &mut World<D>, _| {
         let mut kept = world.free.take(LAST_STRAIN)?;
         kept.copy_from_slice(world.free.get(fields::STRAIN_RATE)?);
         Ok(world.free.put(LAST_STRAIN, kept)?)
-    }
+    })
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Distances from walls in wall units, as far as damping reaches.
 
 use rayon::prelude::*;
-use sph_core::{Access, Stage, StepError, fields, stage};
-use sph_neighbours::World;
+use sph_core::{Access, Stage, StepError, fields};
+use sph_neighbours::{World, column_stage};
 
 use super::phases::Kinematic;
 use crate::columns::DAMPING_UNITS;
@@ -19,11 +19,10 @@ const REACH: f64 = 32.0;
 pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl Stage<World<D>> {
     let access = Access::none()
         .here((fields::POSITION, fields::VELOCITY, fields::RENORMALISATION))
-        .writes(DAMPING_UNITS);
-    let access = Kinematic::access(&viscosities, access);
+        .here(Kinematic::column(&viscosities));
     let mut tree = KeptTree::default();
-    stage("damping units", access, move |world: &mut World<D>| {
-        let mut units = world.free.take(DAMPING_UNITS)?;
+    let name = "damping units";
+    column_stage::<D, _>(name, access, DAMPING_UNITS, move |world, units| {
         let friction = friction_velocities(&viscosities, world)?;
         let factors = &world.walls.elements.friction_factor;
         let tree = tree.updated(world, |s| factors[s] > 0.0);
@@ -38,7 +37,7 @@ pub(crate) fn wall_units<const D: usize>(viscosities: Vec<Option<f64>>) -> impl 
             let plus = found.and_then(friction).zip(nu).map(|(d, nu)| d / nu);
             *z = plus.unwrap_or(f64::INFINITY);
         });
-        Ok(world.free.put(DAMPING_UNITS, units)?)
+        Ok(())
     })
 }
 

@@ -64,13 +64,8 @@ impl<const D: usize> KeptTree<D> {
     pub fn updated(&mut self, world: &World<D>, counts: impl Fn(usize) -> bool) -> &ElementTree<D> {
         let (walls, places) = (&world.walls, &world.walls.points.position);
         self.0.take_if(|(_, of)| of != places);
-        let made = || {
-            (
-                ElementTree::new(walls, &world.domain, counts),
-                places.clone(),
-            )
-        };
-        &self.0.get_or_insert_with(made).0
+        let tree = || ElementTree::new(walls, &world.domain, counts);
+        &self.0.get_or_insert_with(|| (tree(), places.clone())).0
     }
 }
 

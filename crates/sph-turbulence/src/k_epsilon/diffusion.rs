@@ -1,9 +1,9 @@
 //! Diffusion of k and ε.
 
-use sph_contribution::Limiter;
-use sph_core::{Access, Field, Scalar, StepError, StepLimit, fields};
+use sph_contribution::{Limiter, bound};
+use sph_core::{Access, Field, Scalar, StepError, fields};
 use sph_neighbours::{
-    BoundTerm, Elements, Lane, LanePair, Neighbourhood, PairSum, PairTerm, Particles, Rates, World,
+    Elements, Lane, LanePair, Neighbourhood, PairTerm, Particles, Rates, World, pair_sum,
 };
 
 use crate::columns::{DISSIPATION, DISSIPATION_RATE, TURBULENT_ENERGY, TURBULENT_ENERGY_RATE};
@@ -42,19 +42,6 @@ pub(crate) struct BoundDiffusion<'a, const D: usize, const N: usize> {
     nearest: f64,
 }
 
-impl<const D: usize, const N: usize> BoundDiffusion<'_, D, N> {
-    /// η + η_t/σ, where the viscosity is that of fluid and eddies; nothing where a closure does not act: where it does,
-    /// there are eddies.
-    #[inline(always)]
-    fn diffusivity(&self, i: usize) -> [f64; N] {
-        let (viscosity, eddies) = (self.viscosity[i], self.eddies[i]);
-        match eddies > 0.0 {
-            true => self.held.map(|held| viscosity - held * eddies),
-            false => [0.0; N],
-        }
-    }
-}
-
 impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
     type Bound<'a> = BoundDiffusion<'a, D, N>;
     fn name(&self) -> String {
@@ -88,16 +75,22 @@ impl<const D: usize, const N: usize> PairTerm<D> for Diffusion<N> {
     }
 }
 
-impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
-    type Own<L: Lane> = [[L; N]; 2];
-    type Sum<L: Lane> = [L; N];
+#[pair_sum]
+impl<const D: usize, const N: usize> BoundDiffusion<'_, D, N> {
+    /// η + η_t/σ, where the viscosity is that of fluid and eddies; nothing where a closure does not act: where it does,
+    /// there are eddies.
+    fn diffusivity(&self, i: usize) -> [f64; N] {
+        let (viscosity, eddies) = (self.viscosity[i], self.eddies[i]);
+        match eddies > 0.0 {
+            true => self.held.map(|held| viscosity - held * eddies),
+            false => [0.0; N],
+        }
+    }
 
-    #[inline(always)]
     fn own<L: Lane>(&self, all: Particles) -> [[L; N]; 2] {
         let value = all.each(|i| self.value.map(|value| value[i]));
         [value, all.each(|i| self.diffusivity(i))]
     }
-    #[inline(always)]
     fn pair<L: Lane>(
         &self,
         [value, diffusivity]: &[[L; N]; 2],
@@ -117,10 +110,7 @@ impl<const D: usize, const N: usize> PairSum<D> for BoundDiffusion<'_, D, N> {
             sums[n] += weight * both * (value[n] - L::splat(self.value[n][j]));
         }
     }
-}
 
-impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
-    #[inline(always)]
     fn finish(&self, mut sum: [f64; N], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let i = at.particle;
         let specific_volume = 1.0 / self.density[i];
@@ -141,22 +131,15 @@ impl<const D: usize, const N: usize> BoundTerm<D> for BoundDiffusion<'_, D, N> {
 }
 
 /// Δt ≤ C ρ h²/(η + η_t): the limit of a positive explicit diffusion.
-pub(crate) struct DiffusionLimit(
-    /// C.
-    pub f64,
-);
-
-impl<const D: usize> Limiter<D> for DiffusionLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+pub(crate) fn diffusion_limit<const D: usize>(coefficient: f64) -> impl Limiter<D> {
+    let formula = format!("turbulence: dt <= {coefficient} h² / (ν + ν_t)");
+    bound("turbulence", formula, None, move |world: &World<D>| {
         let viscosity = world.free.get(fields::VISCOSITY)?.iter();
         let (density, eddies) = world.free.all((fields::DENSITY, fields::EDDY_VISCOSITY))?;
         let all = viscosity.zip(density).zip(eddies);
         let acting = all.filter(|(_, eddies)| **eddies > 0.0);
         let largest = (acting.map(|((eta, rho), _)| eta / rho)).fold(0.0, f64::max);
         let h = world.kernel.smoothing_length();
-        Ok(StepLimit::new("turbulence", self.0 * h * h / largest))
-    }
-    fn formula(&self) -> String {
-        format!("turbulence: dt <= {} h² / (ν + ν_t)", self.0)
-    }
+        Ok(coefficient * h * h / largest)
+    })
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, SMatrix};
 use rayon::prelude::*;
-use sph_core::{Access, Stage, Symmetric, fields, stage};
-use sph_neighbours::World;
+use sph_core::{Access, Stage, Symmetric, fields};
+use sph_neighbours::{World, column_stage};
 
 use crate::closures::in_space;
 use crate::columns::{DISSIPATION, EDDY_STRESS, TURBULENT_ENERGY};
@@ -23,8 +23,6 @@ pub struct Anisotropy {
     pub n: f64,
     /// β_1.
     pub beta_1: f64,
-    /// β_4.
-    pub beta_4: f64,
     /// a.
     pub tensor: Matrix3<f64>,
     /// β_4 (S*Ω* − Ω*S*), the part of a that is not along the strain.
@@ -68,7 +66,6 @@ impl AlgebraicStress {
         Anisotropy {
             n,
             beta_1,
-            beta_4,
             tensor: s * beta_1 + across,
             across,
         }
@@ -80,15 +77,15 @@ impl AlgebraicStress {
 ///
 /// Source: Wallin and Johansson 2000, Eq. 3.9.
 pub(crate) fn extra_stress<const D: usize>() -> impl Stage<World<D>> {
-    let access = Access::none()
-        .here((fields::DENSITY, fields::VELOCITY_GRADIENT))
-        .here((TURBULENT_ENERGY, DISSIPATION))
-        .writes(EDDY_STRESS);
-    stage("stress of eddies", access, |world: &mut World<D>| {
-        let mut stresses = world.free.take(EDDY_STRESS)?;
-        let density = world.free.get(fields::DENSITY)?;
-        let gradients = world.free.get(fields::VELOCITY_GRADIENT)?;
-        let (energy, dissipation) = world.free.all((TURBULENT_ENERGY, DISSIPATION))?;
+    let strained = (fields::DENSITY, fields::VELOCITY_GRADIENT);
+    let transported = (TURBULENT_ENERGY, DISSIPATION);
+    let (name, access) = (
+        "stress of eddies",
+        Access::none().here((strained, transported)),
+    );
+    column_stage::<D, _>(name, access, EDDY_STRESS, move |world, stresses| {
+        let (density, gradients) = world.free.all(strained)?;
+        let (energy, dissipation) = world.free.all(transported)?;
         let all = stresses.par_iter_mut().enumerate().with_min_len(512);
         all.for_each(|(i, stress)| {
             let (k, e) = (energy[i], dissipation[i]);
@@ -100,7 +97,7 @@ pub(crate) fn extra_stress<const D: usize>() -> impl Stage<World<D>> {
                 false => Symmetric::ZERO,
             };
         });
-        Ok(world.free.put(EDDY_STRESS, stresses)?)
+        Ok(())
     })
 }
 

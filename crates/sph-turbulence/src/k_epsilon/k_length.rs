@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 use sph_contribution::{
-    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepMoment, StepPhase,
+    Contribution, Offer, OwnColumn, Refusal, Setting, StepHook, StepPhase, step_hook,
 };
 use sph_core::{Access, Evolved, StepError, fields, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 
-use super::diffusion::{Diffusion, DiffusionLimit};
+use super::diffusion::{Diffusion, diffusion_limit};
 use super::model::KEpsilonModel;
 use super::work::{beside_bed, refuse_negative};
 use crate::bed::{RoughBed, surface_share};
@@ -137,59 +137,44 @@ impl<const D: usize> Contribution<D> for KLength {
             sigma: [KEpsilonModel::SIGMA_K],
             wall_flux: None,
         });
-        offer.limiter(DiffusionLimit(setting.viscous));
-        offer.hook(Sources {
-            closure: self.clone(),
-            viscosities: viscosities(&self.phases, setting),
-        });
+        offer.limiter(diffusion_limit(setting.viscous));
+        let viscosities = viscosities(&self.phases, setting);
+        let damped = self.damped_at_surfaces;
+        offer.hook(sources(self.length(), damped, viscosities));
         offer.remedy = Some("look at k at the start: the eddy viscosity is 0.55 √k L".into());
         Ok(())
     }
 }
 
-struct Sources {
-    closure: KLength,
-    /// ν of every phase, m²/s; none of those that it does not act on.
+/// Production and dissipation of k after diffusion, and its values at walls.
+///
+/// `viscosities` are ν of every phase, m²/s; none of those that it does not act on.
+fn sources<const D: usize>(
+    length: Length,
+    damped: bool,
     viscosities: Vec<Option<f64>>,
-}
-
-impl<const D: usize> StepHook<D> for Sources {
-    fn name(&self) -> String {
-        "k-length".into()
-    }
-    fn access(&self) -> Access {
-        let access = Access::none()
-            .here((fields::STRAIN_RATE, fields::POSITION, fields::IDENTITY))
-            .here((WALL_DISTANCE, TURBULENT_ENERGY))
-            .where_there(FRICTION_VELOCITY)
-            .where_there(BED)
-            .writes(TURBULENT_ENERGY);
-        let access = match self.closure.damped_at_surfaces {
-            true => access.here(SURFACE_SHARE),
-            false => access,
-        };
-        Kinematic::access(&self.viscosities, access)
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::AfterKick]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        let (world, dt) = (&mut *moment.world, moment.dt);
+) -> impl StepHook<D> {
+    let surface_share = damped.then_some(SURFACE_SHARE);
+    let access = Access::none()
+        .here((fields::STRAIN_RATE, fields::POSITION, fields::IDENTITY))
+        .here((WALL_DISTANCE, TURBULENT_ENERGY))
+        .where_there((FRICTION_VELOCITY, BED))
+        .writes(TURBULENT_ENERGY)
+        .here(surface_share)
+        .here(Kinematic::column(&viscosities));
+    let work = move |world: &mut World<D>, dt: f64| {
         let mut energy = world.free.take(TURBULENT_ENERGY)?;
-        let viscosity = Kinematic::from_world(&self.viscosities, world)?;
+        let viscosity = Kinematic::from_world(&viscosities, world)?;
         let acts = |i: usize| viscosity.at(i).is_some();
         refuse_negative(world, TURBULENT_ENERGY.name, &energy, acts)?;
-        let (length, spacing) = (self.closure.length(), world.spacing);
-        let share = match self.closure.damped_at_surfaces {
-            true => world.free.get(SURFACE_SHARE)?,
-            false => &[],
-        };
+        let spacing = world.spacing;
+        let share = world.free.all(surface_share)?;
         let bed = world.free.all(BED).ok();
         let (rates, distance) = world.free.all((fields::STRAIN_RATE, WALL_DISTANCE))?;
         let all = energy.par_iter_mut().zip(rates).zip(distance).enumerate();
         all.with_min_len(1024).for_each(|(i, ((k, rate), z))| {
             if acts(i) {
-                let share = share.get(i).copied().unwrap_or(1.0);
+                let share = share.map_or(1.0, |share| share[i]);
                 *k = after(*k, at(&length, *z, spacing), [*rate, share], dt);
                 if let Some([u, _]) = beside_bed(bed, i) {
                     *k = u * u / KEpsilonModel::C_MU.sqrt();
@@ -204,7 +189,8 @@ impl<const D: usize> StepHook<D> for Sources {
             }
         }
         Ok(world.free.put(TURBULENT_ENERGY, energy)?)
-    }
+    };
+    step_hook("k-length", access, &[StepPhase::AfterKick], work)
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Birth, Contribution, Offer, OwnColumn, Refusal, Setting};
-use sph_core::{Access, Evolved, StepError, fields, parameters, plugin};
+use sph_core::{Access, Evolved, Field, StepError, Tensor, fields, parameters, plugin};
 use sph_multiphase::viscosity::EddyViscosityEntry;
 use sph_neighbours::World;
 use sph_soil::stress::StressDivergence;
 
-use super::diffusion::{Diffusion, DiffusionLimit};
+use super::diffusion::{Diffusion, diffusion_limit};
 use super::earsm::extra_stress;
 use super::work::Sources;
 use crate::bed::surface_share;
@@ -86,13 +86,15 @@ impl KEpsilon {
 }
 
 impl Variant {
+    /// The column of velocity gradients, if C_μ depends on them.
+    fn gradients(self) -> Option<Field<Tensor>> {
+        (self != Variant::Standard).then_some(fields::VELOCITY_GRADIENT)
+    }
+
     fn set<const D: usize>(self, world: &World<D>, eddies: &mut [f64]) -> Result<(), StepError> {
         let (density, energy) = world.free.all((fields::DENSITY, TURBULENT_ENERGY))?;
         let dissipation = world.free.get(DISSIPATION)?;
-        let gradients = match self {
-            Variant::Standard => &[],
-            _ => world.free.get(fields::VELOCITY_GRADIENT)?,
-        };
+        let gradients = world.free.all(self.gradients())?.unwrap_or_default();
         let c_mu = |i: usize, time: f64| match self {
             Variant::Standard => KEpsilonModel::C_MU,
             Variant::Realisable => RealisableModel::c_mu(&gradients[i], time),
@@ -128,11 +130,10 @@ impl<const D: usize> Contribution<D> for KEpsilon {
             bed: self.bed.as_ref(),
             ..ClosureCommon::default()
         };
-        let mut access = Access::none().here((fields::DENSITY, TURBULENT_ENERGY, DISSIPATION));
-        if self.variant != Variant::Standard {
-            access = access.here(fields::VELOCITY_GRADIENT);
-        }
         let variant = self.variant;
+        let access = Access::none()
+            .here((fields::DENSITY, TURBULENT_ENERGY, DISSIPATION))
+            .here(variant.gradients());
         let set = move |world: &World<D>, eddies: &mut [f64]| variant.set(world, eddies);
         common.offer_to(setting, ("k-epsilon", access), set, offer)?;
         if self.start(0.0).is_none() {
@@ -166,7 +167,7 @@ impl<const D: usize> Contribution<D> for KEpsilon {
                 stress: EDDY_STRESS,
             });
         }
-        offer.limiter(DiffusionLimit(setting.viscous));
+        offer.limiter(diffusion_limit(setting.viscous));
         offer.hook(Sources {
             variant: self.variant,
             at_wall: self.at_wall,

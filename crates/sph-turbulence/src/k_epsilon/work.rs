@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Report, StepHook, StepMoment, StepPhase};
-use sph_core::{Access, StepError, fields, parameters};
+use sph_core::{Access, Field, Scalar, StepError, fields, parameters};
 use sph_neighbours::World;
 
 use super::model::{KEpsilonModel, Variant};
@@ -26,11 +26,8 @@ pub enum AtWall {
 
 /// After diffusion: k and ε are produced and dissipated, and next to walls with a wall function they are its own.
 pub(crate) struct Sources {
-    /// The equations.
     pub variant: Variant,
-    /// Next to walls.
     pub at_wall: AtWall,
-    /// κ.
     pub karman: f64,
     /// ν of every phase, m²/s; none of those that it does not act on.
     pub viscosities: Vec<Option<f64>>,
@@ -54,9 +51,9 @@ struct StrainRates {
 const AT_SURFACE: f64 = 0.5;
 
 impl Sources {
-    /// True if the share of the support that is filled matters.
-    fn sees_surfaces(&self) -> bool {
-        self.damped || self.surface_depth.is_some()
+    /// The column of the share of the support that is filled, if that matters.
+    fn surface_share(&self) -> Option<Field<Scalar>> {
+        (self.damped || self.surface_depth.is_some()).then_some(SURFACE_SHARE)
     }
 
     /// k and ε after a step within the flow.
@@ -108,18 +105,14 @@ impl<const D: usize> StepHook<D> for Sources {
         "k-epsilon".into()
     }
     fn access(&self) -> Access {
-        let access = Access::none()
+        Access::none()
             .here((fields::STRAIN_RATE, fields::EDDY_VISCOSITY))
             .here((fields::DENSITY, fields::POSITION, fields::IDENTITY))
             .here((TURBULENT_ENERGY, DISSIPATION))
-            .where_there((FRICTION_VELOCITY, WALL_UNITS))
-            .where_there(BED)
-            .writes((TURBULENT_ENERGY, DISSIPATION));
-        let access = match self.sees_surfaces() {
-            true => access.here(SURFACE_SHARE),
-            false => access,
-        };
-        Kinematic::access(&self.viscosities, access)
+            .where_there((FRICTION_VELOCITY, WALL_UNITS, BED))
+            .writes((TURBULENT_ENERGY, DISSIPATION))
+            .here(self.surface_share())
+            .here(Kinematic::column(&self.viscosities))
     }
     fn phases(&self) -> &'static [StepPhase] {
         &[StepPhase::AfterKick]
@@ -134,10 +127,7 @@ impl<const D: usize> StepHook<D> for Sources {
         refuse_negative(world, DISSIPATION.name, &dissipation, acts)?;
         let rates = world.free.get(fields::STRAIN_RATE)?;
         let (eddies, density) = world.free.all((fields::EDDY_VISCOSITY, fields::DENSITY))?;
-        let share = match self.sees_surfaces() {
-            true => world.free.get(SURFACE_SHARE)?,
-            false => &[],
-        };
+        let share = world.free.all(self.surface_share())?;
         let walls = world.free.all((FRICTION_VELOCITY, WALL_UNITS)).ok();
         let bed = world.free.all(BED).ok();
         let near = |i: usize, nu: f64| {
@@ -156,7 +146,7 @@ impl<const D: usize> StepHook<D> for Sources {
                 rate: rates[i],
                 eddies: eddies[i] / density[i],
                 viscosity: nu,
-                share: share.get(i).copied().unwrap_or(1.0),
+                share: share.map_or(1.0, |share| share[i]),
             };
             [*k, *e] = self.after([*k, *e], strained, near(i, nu), dt);
         });
@@ -185,15 +175,8 @@ pub(crate) fn refuse_negative<const D: usize>(
     let Some(i) = values.iter().enumerate().position(|(i, v)| bad(i, *v)) else {
         return Ok(());
     };
-    let position = world.free.get(fields::POSITION)?[i];
-    Err(StepError::Bad {
-        quantity,
-        particle: world.free.get(fields::IDENTITY)?[i],
-        position: position.iter().copied().collect(),
-        value: values[i],
-        reason: "where a positive number was expected: the step is too long for its diffusion"
-            .into(),
-    })
+    let reason = "where a positive number was expected: the step is too long for its diffusion";
+    Err(world.bad_value(quantity, i, values[i], reason))
 }
 
 /// A word about walls that rub a turbulent fluid without a wall function, as they may where a soil needs them to.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use sph_contribution::{Contribution, Offer, Refusal, Report, Setting, contribution_kind};
-use sph_core::{Access, Stage, StepError, Work, fields, plugin, stage, suggestion};
+use sph_core::{Access, Stage, StepError, Work, fields, plugin, stage};
 use sph_neighbours::World;
 
 use super::nearest;
@@ -69,27 +69,27 @@ impl LogLaw {
     /// Mistakes of its walls.
     ///
     /// A friction of their own is that of phases that the law is not for, where there are such.
-    fn check_walls<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), String> {
+    fn check_walls<const D: usize>(&self, setting: &Setting<'_, D>) -> Result<(), Refusal> {
+        let refused = |why: String| Err(Refusal::at_key(KIND, "walls", why));
         let walls = &setting.world.walls;
         let shared = setting.viscosities.iter().any(|nu| !is_viscous(nu));
         for name in &self.walls {
             if !walls.names.contains(name) {
-                let near = suggestion(name, walls.names.iter().map(String::as_str));
-                return Err(format!("there is no wall `{name}`{near}"));
+                return Err(Refusal::unknown(KIND, "walls", "wall", name, &walls.names));
             }
         }
         let elements = &walls.elements;
         if elements.centre.is_empty() || walls.points.in_density() {
             let why = "it acts on semi-analytical walls without vertices, whose points would rub as well: write \
                        `[walls.usaw]` with `vertices = false`";
-            return Err(why.into());
+            return refused(why.into());
         }
         for (s, wall) in elements.wall.iter().enumerate() {
             let name = &walls.names[*wall as usize];
             let rubs = elements.friction_factor[s] > 0.0
                 || elements.coulomb.get(s).is_some_and(|c| c.coefficient > 0.0);
             if rubs && !shared && self.walls.contains(name) {
-                return Err(format!(
+                return refused(format!(
                     "wall `{name}` has a friction of its own, whose place the wall function takes: write `condition = \
                      \"free-slip\"` in `[wall.{name}]`"
                 ));
@@ -102,9 +102,7 @@ impl LogLaw {
 impl<const D: usize> Contribution<D> for LogLaw {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         let refused = |key: &str, why: String| Refusal::at_key(KIND, key, why);
-        self.law().check().map_err(|why| refused("", why))?;
-        self.check_walls(setting)
-            .map_err(|why| refused("walls", why))?;
+        self.check_walls(setting)?;
         let (roughness, spacing) = (self.roughness, setting.world.spacing);
         if roughness > spacing {
             let why = format!(
@@ -162,8 +160,8 @@ fn wall_shear<const D: usize>(
 ) -> impl Stage<World<D>> {
     let access = Access::none()
         .here((fields::VELOCITY, fields::DENSITY, fields::RENORMALISATION))
-        .writes((FRICTION_VELOCITY, WALL_UNITS, fields::WALL_FRICTION));
-    let access = Kinematic::access(&viscosities, access);
+        .writes((FRICTION_VELOCITY, WALL_UNITS, fields::WALL_FRICTION))
+        .here(Kinematic::column(&viscosities));
     stage("wall function", access, move |world: &mut World<D>| {
         if world.walls.elements.wall_function.len() != world.walls.elements.wall.len() {
             let names = &world.walls.names;

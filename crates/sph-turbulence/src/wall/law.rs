@@ -42,30 +42,6 @@ impl Default for WallLaw {
 }
 
 impl WallLaw {
-    /// Checks the constants.
-    ///
-    /// # Errors
-    /// Names the first that is wrong.
-    pub fn check(&self) -> Result<(), String> {
-        let (positive, from_zero) = ("a positive number", "a number from 0 on");
-        for (name, value, good, expected) in [
-            ("karman", self.karman, self.karman > 0.0, positive),
-            ("smooth", self.smooth, self.smooth > 0.0, positive),
-            ("rough", self.rough, self.rough > 0.0, positive),
-            (
-                "roughness",
-                self.roughness,
-                self.roughness >= 0.0,
-                from_zero,
-            ),
-        ] {
-            if !(good && value.is_finite()) {
-                return Err(format!("{name} is {value} where {expected} was expected"));
-            }
-        }
-        Ok(())
-    }
-
     /// ΔB and its derivative by ln k_s⁺.
     fn shift(&self, sand: f64) -> [f64; 2] {
         if sand <= SMOOTH_BELOW {
@@ -123,27 +99,25 @@ impl WallLaw {
         viscosity: f64,
     ) -> Result<f64, String> {
         let least = self.least_distance();
-        let wrong = if !(distance > 0.0 && distance.is_finite()) {
-            format!(
-                "the distance from the wall is {distance} m where a positive number was expected"
-            )
-        } else if !(viscosity > 0.0 && viscosity.is_finite()) {
-            format!(
-                "the kinematic viscosity is {viscosity} m²/s where a positive number was expected"
-            )
-        } else if !(speed >= 0.0 && speed.is_finite()) {
-            format!("the speed along the wall is {speed} m/s where a number from 0 on was expected")
-        } else if distance <= least {
-            format!(
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let expected = "where a positive number was expected";
+        Err(match speed {
+            _ if !positive(distance) => {
+                format!("the distance from the wall is {distance} m {expected}")
+            }
+            _ if !positive(viscosity) => {
+                format!("the kinematic viscosity is {viscosity} m²/s {expected}")
+            }
+            _ if !(speed >= 0.0 && speed.is_finite()) => format!(
+                "the speed along the wall is {speed} m/s where a number from 0 on was expected"
+            ),
+            _ if distance <= least => format!(
                 "the distance of {distance} m from the wall is within its roughness, where the law has no velocity: more \
                  than {least} m was expected"
-            )
-        } else if speed == 0.0 {
-            return Ok(0.0);
-        } else {
-            return Ok(self.solve(speed, distance, viscosity));
-        };
-        Err(wrong)
+            ),
+            0.0 => return Ok(0.0),
+            _ => return Ok(self.solve(speed, distance, viscosity)),
+        })
     }
 
     /// The root of u* u⁺ − u, which grows with u*.
@@ -300,15 +274,6 @@ mod tests {
         assert!(refused(f64::NAN, 0.1, NU).contains("NaN"));
         // e^{−κD} = 1/32.6 of the roughness.
         assert!(refused(1.0, 0.0003, NU).contains("within its roughness"));
-        let wrong = WallLaw {
-            karman: 0.0,
-            ..WallLaw::default()
-        };
-        let told = wrong.check().expect_err("refused");
-        assert!(
-            told.contains("karman is 0 where a positive number"),
-            "{told}"
-        );
         assert_eq!(law.friction_velocity(0.0, 0.1, NU), Ok(0.0));
     }
 }

@@ -2,9 +2,9 @@
 
 use sph_contribution::{
     Contribution, FromPlugins, Limiter, Offer, OwnColumn, Plugins, Refusal, Setting, StepHook,
-    StepMoment, StepPhase, contributes,
+    StepPhase, bound, contributes, step_hook,
 };
-use sph_core::{Access, StepError, StepLimit, Vect, fields, suggestion};
+use sph_core::{Access, StepError, Vect, fields, suggestion};
 use sph_neighbours::{Interaction, Neighbourhood, Rates, RowTerm, WithTerm, World};
 
 use super::exchange::BedExchange;
@@ -154,20 +154,18 @@ impl<const D: usize> Contribution<D> for SuspensionOfScene<D> {
         };
         let reference = self.suspended.reference_height;
         offer.term(SubmergedWeight(grains.relative_density - 1.0));
-        offer.limiter(TransportLimit(transport));
-        offer.hook(Suspension {
-            transport,
-            exchange: BedExchange {
-                law,
-                grains,
-                settling,
-                height: reference.unwrap_or(REFERENCE_GRAINS * grains.diameter),
-                critical: self.bed.map_or(0.0, |bed| bed.critical(&grains)),
-                schmidt: self.suspended.schmidt_number,
-                solid,
-                density,
-            },
-        });
+        offer.limiter(transport_limit(transport));
+        let exchange = BedExchange {
+            law,
+            grains,
+            settling,
+            height: reference.unwrap_or(REFERENCE_GRAINS * grains.diameter),
+            critical: self.bed.map_or(0.0, |bed| bed.critical(&grains)),
+            schmidt: self.suspended.schmidt_number,
+            solid,
+            density,
+        };
+        offer.hook(suspension(transport, exchange));
         Ok(())
     }
 }
@@ -204,44 +202,25 @@ impl<const D: usize> Interaction<D> for SubmergedWeight {
 
 /// Δt ≤ 1/(12 w/R + 56 D/R²) with the radius R of the support: half of the step at which a particle would give all its grains
 /// away, 2 Σ_b V_b |F_ab| (w|Δz| + D) Δt = 1.
-struct TransportLimit(Transport);
-
-impl<const D: usize> Limiter<D> for TransportLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
+fn transport_limit<const D: usize>(transport: Transport) -> impl Limiter<D> {
+    let formula = "suspension: dt <= 1 / (12 w / R + 56 D / R²), R the radius of the support";
+    bound("suspension", formula, None, move |world: &World<D>| {
         let radius = world.kernel.support_radius();
-        let mixing = self.0.mixing(world)?.into_iter().fold(0.0, f64::max);
-        let rate = 12.0 * self.0.settling.speed / radius + 56.0 * mixing / radius.powi(2);
-        Ok(StepLimit::new("suspension", 1.0 / rate))
-    }
-    fn formula(&self) -> String {
-        "suspension: dt <= 1 / (12 w / R + 56 D / R²), R the radius of the support".into()
-    }
+        let mixing = transport.mixing(world)?.into_iter().fold(0.0, f64::max);
+        let rate = 12.0 * transport.settling.speed / radius + 56.0 * mixing / radius.powi(2);
+        Ok(1.0 / rate)
+    })
 }
 
-struct Suspension {
-    transport: Transport,
-    exchange: BedExchange,
-}
-
-impl<const D: usize> StepHook<D> for Suspension {
-    fn name(&self) -> String {
-        KIND.into()
-    }
-    fn access(&self) -> Access {
-        self.transport.access()
-    }
-    fn phases(&self) -> &'static [StepPhase] {
-        &[StepPhase::BeforeDrift]
-    }
-    fn run(&mut self, _: StepPhase, moment: &mut StepMoment<'_, D>) -> Result<(), StepError> {
-        let (world, dt) = (&mut *moment.world, moment.dt);
-        let mut concentration = self.transport.step(world, dt)?;
+fn suspension<const D: usize>(transport: Transport, exchange: BedExchange) -> impl StepHook<D> {
+    let work = move |world: &mut World<D>, dt: f64| {
+        let mut concentration = transport.step(world, dt)?;
         let mut beds = std::mem::take(&mut world.walls.beds);
         let mut moving = beds.iter_mut().filter(|bed| !bed.critical.is_empty());
-        let done =
-            moving.try_for_each(|bed| self.exchange.step(world, bed, &mut concentration, dt));
+        let done = moving.try_for_each(|bed| exchange.step(world, bed, &mut concentration, dt));
         world.walls.beds = beds;
         done?;
         Ok(world.free.put(fields::CONCENTRATION, concentration)?)
-    }
+    };
+    step_hook(KIND, transport.access(), &[StepPhase::BeforeDrift], work)
 }

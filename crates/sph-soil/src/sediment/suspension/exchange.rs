@@ -4,7 +4,7 @@ use sph_core::bed::{Bed, horizontal};
 use sph_core::{StepError, fields};
 use sph_neighbours::World;
 
-use crate::sediment::bed_shear::WET;
+use crate::sediment::bed_shear::{WET, contacts};
 use crate::sediment::{Grains, HinderedSettling, PickUp};
 
 /// κ of the law of the wall.
@@ -79,9 +79,8 @@ impl BedExchange {
             pass.lifted *= shares[pass.place];
             concentration[pass.particle] += (pass.lifted - pass.settled) / volume(pass.particle);
         }
-        let net = all
-            .iter()
-            .map(|pass| (pass.place, pass.settled - pass.lifted));
+        let passes = all.iter();
+        let net = passes.map(|pass| (pass.place, pass.settled - pass.lifted));
         let changes = world.sums_by_place(&net.collect::<Vec<_>>(), bed.grid.len())?;
         for (place, change) in changes.iter().enumerate() {
             bed.lifted -= change;
@@ -102,34 +101,21 @@ impl BedExchange {
         dt: f64,
     ) -> Result<Vec<Pass>, StepError> {
         let volume = world.free.get(fields::VOLUME)?;
-        let (walls, owned) = (&world.walls, world.owned());
-        let elements = &walls.elements;
+        let elements = &world.walls.elements;
         let rates: Vec<[f64; 2]> = (0..bed.grid.len()).map(|k| self.rate(bed, k)).collect();
         // Particles and places, with the part of the bed, seen from above, that is the particle's, and its height over it.
         let mut parts: Vec<(usize, usize, f64, f64)> = Vec::new();
-        for &particle in &walls.contacts.particles {
-            let i = particle as usize;
-            if !owned.has(i) {
-                continue;
-            }
-            for contact in walls.contacts.of_particle(i) {
-                let s = contact.element as usize;
-                if elements.wall[s] != bed.walls[0] {
-                    continue;
-                }
-                let part = volume[i] * contact.gradient.norm();
-                for (place, share) in bed.grid.around(horizontal(&elements.centre[s].into())) {
-                    if share > 0.0 && !bed.covered[place] {
-                        parts.push((i, place, part * share, contact.distance));
-                    }
+        for (i, contact) in contacts(world, bed) {
+            let centre = elements.centre[contact.element as usize];
+            let part = volume[i] * contact.gradient.norm();
+            for (place, share) in bed.grid.around(horizontal(&centre.into())) {
+                if share > 0.0 && !bed.covered[place] {
+                    parts.push((i, place, part * share, contact.distance));
                 }
             }
         }
-        let weights: Vec<_> = parts
-            .iter()
-            .map(|(_, place, part, _)| (*place, *part))
-            .collect();
-        let weights = world.sums_by_place(&weights, bed.grid.len())?;
+        let weights = parts.iter().map(|(_, place, part, _)| (*place, *part));
+        let weights = world.sums_by_place(&weights.collect::<Vec<_>>(), bed.grid.len())?;
         let filled = parts.into_iter().map(|(particle, place, part, distance)| {
             let area = bed.grid.area(place);
             let own = dt * area * part / weights[place].max(WET * 0.5 * area);

@@ -60,7 +60,6 @@ pub(super) struct Transport {
     pub diffusivity: f64,
     /// Viscosity of the eddies over the diffusivity of the grains; none without eddies.
     pub schmidt: Option<f64>,
-    /// The phase that carries grains.
     pub phase: PhaseMask,
     /// Reference density of the fluid, kg/m³.
     pub density: f64,
@@ -69,15 +68,14 @@ pub(super) struct Transport {
 impl Transport {
     /// The columns that a step of grains reads and writes.
     pub fn access(&self) -> Access {
-        let access = Access::none()
+        let of_eddies = (fields::EDDY_VISCOSITY, fields::DENSITY);
+        Access::none()
             .both((fields::POSITION, fields::CONCENTRATION, fields::VOLUME))
             .here(fields::MASS)
             .where_there(fields::RENORMALISATION)
-            .remembers(fields::CONCENTRATION);
-        self.phase.access(match self.schmidt {
-            Some(_) => access.both((fields::EDDY_VISCOSITY, fields::DENSITY)),
-            None => access,
-        })
+            .remembers(fields::CONCENTRATION)
+            .both(self.schmidt.map(|_| of_eddies))
+            .both(self.phase.column())
     }
 
     /// D of a particle, m²/s.

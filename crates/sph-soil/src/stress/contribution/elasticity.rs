@@ -1,9 +1,10 @@
 //! The elastic force in a scene: which one, with what it cannot be combined, and the step that elastic waves allow.
 
 use sph_contribution::{
-    Contribution, FromPlugins, Limiter, Offer, OutsideForce, Plugins, Refusal, Setting, contributes,
+    Contribution, FromPlugins, Limiter, Offer, OutsideForce, Plugins, Refusal, Setting, bound,
+    contributes,
 };
-use sph_core::{AnyField, Pool, StepError, StepLimit};
+use sph_core::{AnyField, Pool};
 use sph_neighbours::{Interaction, World};
 use sph_rheology::Rheology;
 
@@ -53,7 +54,8 @@ impl<const D: usize> Elasticity<D> {
         strength.collect()
     }
 
-    fn wave(&self, setting: &Setting<'_, D>) -> Option<ElasticWaveLimit> {
+    /// The largest √(c₀² + k𝒢/ρ₀) over the phases with an elastic part, m/s.
+    fn wave_speed(&self, setting: &Setting<'_, D>) -> Option<f64> {
         let stiffness = self.0.force.as_ref()?.stiffness();
         let both = setting.laws.iter().zip(self.0.laws.iter());
         let speeds = both.filter_map(|(law, rheology)| {
@@ -61,11 +63,7 @@ impl<const D: usize> Elasticity<D> {
             let shear = rheology.elastic()?.shear_modulus() / reference.density;
             Some((reference.sound_speed.powi(2) + stiffness * shear).sqrt())
         });
-        Some(ElasticWaveLimit {
-            courant: setting.courant,
-            speed: speeds.reduce(f64::max)?,
-            stiffness,
-        })
+        speeds.reduce(f64::max)
     }
 }
 
@@ -77,8 +75,9 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
         self.check(&**force, setting)?;
         if !force.sub_steps() {
             offer.terms.push(self.term(&**force));
-            let wave = self.wave(setting).filter(|_| !force.implicit());
-            wave.into_iter().for_each(|wave| offer.limiter(wave));
+            if let Some(speed) = self.wave_speed(setting).filter(|_| !force.implicit()) {
+                offer.limiter(wave_limit(setting.courant, speed, force.stiffness()));
+            }
         }
         let strength = self.hourglass(&**force, setting);
         if strength.iter().any(|s| *s > 0.0) {
@@ -119,12 +118,12 @@ impl<const D: usize> Contribution<D> for Elasticity<D> {
             displaced: force.displaced(),
             gradients: Pool::default(),
         };
-        match self.wave(setting).filter(|_| force.sub_steps()) {
+        match self.wave_speed(setting).filter(|_| force.sub_steps()) {
             None => offer.hook(motion),
-            Some(wave) => {
+            Some(speed) => {
                 // About half of the 2/max k̂ at which nested differences k̂ on a lattice become unstable (1.73 to 1.76 h for
                 // `wendland-c2` at h = 2δr).
-                let longest = 0.8 * setting.world.kernel.smoothing_length() / wave.speed;
+                let longest = 0.8 * setting.world.kernel.smoothing_length() / speed;
                 let term: OutsideForce<D> = self.term(&**force).into();
                 let sub_steps = ElasticSubSteps {
                     term: term.clone(),
@@ -220,14 +219,11 @@ impl<const D: usize> Elasticity<D> {
             return Ok(());
         }
         let (points, elements) = (&setting.world.walls.points, &setting.world.walls.elements);
-        let mut friction_factors = points
-            .friction_factor
-            .iter()
-            .chain(&elements.friction_factor);
+        let slips = |factors: &[f64]| factors.iter().any(|factor| *factor < 1.0);
         let why = if force.displaced() {
             "the force is made of displacements and not of a stress: take `adjoint` out, or take \
              [elastic-force.divergence]"
-        } else if friction_factors.any(|friction_factor| *friction_factor < 1.0) {
+        } else if slips(&points.friction_factor) || slips(&elements.friction_factor) {
             "the adjoint force is not known at walls that slip: take `adjoint` out, or let all walls be \"no-slip\""
         } else {
             return Ok(());
@@ -257,31 +253,13 @@ impl<const D: usize> Elasticity<D> {
     }
 }
 
-/// Δt ≤ C h / √(c₀² + k𝒢/ρ₀): pressure waves in an elastic material, k being that of its
-/// [force](crate::stress::ElasticForce::stiffness), 4/3 for a divergence. Ours; the thesis has none.
-pub struct ElasticWaveLimit {
-    /// C.
-    pub courant: f64,
-    /// Largest √(c₀² + k𝒢/ρ₀) over the phases with an elastic part, m/s.
-    pub speed: f64,
-    /// k.
-    pub stiffness: f64,
-}
-
-impl<const D: usize> Limiter<D> for ElasticWaveLimit {
-    fn limit(&self, world: &World<D>) -> Result<StepLimit, StepError> {
-        let longest = self.courant * world.kernel.smoothing_length() / self.speed;
-        Ok(StepLimit::new("elastic wave", longest))
-    }
-    fn remedy(&self) -> Option<String> {
-        let away = "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: \
-                    the elastic force then has steps of its own within that of the flow";
-        Some(away.into())
-    }
-    fn formula(&self) -> String {
-        format!(
-            "elastic wave: dt <= {} h / sqrt(c² + {:.2} G/ρ)",
-            self.courant, self.stiffness
-        )
-    }
+/// Δt ≤ C h / √(c₀² + k𝒢/ρ₀): pressure waves in an elastic material, k being the `stiffness` of its
+/// [force](crate::stress::ElasticForce::stiffness), 4/3 for a divergence, and `speed`, m/s, the largest root over the
+/// phases. Ours; the thesis has none.
+fn wave_limit<const D: usize>(courant: f64, speed: f64, stiffness: f64) -> impl Limiter<D> {
+    let formula = format!("elastic wave: dt <= {courant} h / sqrt(c² + {stiffness:.2} G/ρ)");
+    let remedy = "`elastic-force.divergence.sub_steps = true` with [integrator.symplectic-euler] takes this bound away: \
+                  the elastic force then has steps of its own within that of the flow";
+    let longest = move |world: &World<D>| Ok(courant * world.kernel.smoothing_length() / speed);
+    bound("elastic wave", formula, Some(remedy), longest)
 }
