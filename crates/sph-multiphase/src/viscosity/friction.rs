@@ -206,29 +206,24 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 
     fn finish(&self, sums: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let here = self.own_values(at.particle);
-        let [mut force, mut discrete] = sums.map(Vect::from);
-        // 2 Σ η u_t/δr |∇γ_as|, and Σ ∇γ_as.
-        let (mut flux, mut gradient) = (Vect::zeros(), Vect::zeros());
+        let [mut force, discrete] = sums.map(Vect::from);
+        // 2 Σ η u_t/δr |∇γ_as|.
+        let mut flux = Vect::zeros();
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
-                let (share, volume) = (self.walls.points.share[v], self.walls.points.volume[v]);
+                let volume = self.walls.points.volume[v];
                 let rubbing = self.rubbing(v, &pair);
                 let relative = here.velocity - self.walls.points.viscous_velocity[v];
                 let of_pair = self.friction.force(here.volume, volume, &relative, &pair);
                 force += of_pair * (rubbing * here.viscosity.eta);
-                let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
-                discrete += pair.separation * (share * shear);
             }
             for contact in at.contacts {
                 let normal = &self.walls.elements.normal[contact.element as usize];
                 let relative = here.velocity - self.walls.elements.velocity_at(&contact);
                 flux += (relative - normal * relative.dot(normal)) * self.weight(&here, &contact);
-                if !self.is_open(contact.element) {
-                    gradient += contact.gradient;
-                }
             }
         }
-        let total = force - flux * self.correction(&here, discrete, gradient);
+        let total = force - flux * self.correction(&here, discrete, at);
         let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
         rates.acceleration += total * scale;
     }

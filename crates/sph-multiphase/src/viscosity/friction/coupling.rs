@@ -52,7 +52,15 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             wall = wall + friction;
             source += friction.apply(&self.walls.points.viscous_velocity[v]);
         }
-        let correction = self.correction_of(&here, rows);
+        let mut discrete = Vect::zeros();
+        if here.nearest.is_some() {
+            for (j, pair) in rows.free.pairs() {
+                let there = self.volume[j];
+                let shear = self.friction.shear(here.volume, there, &here.along, &pair);
+                discrete += pair.separation * shear;
+            }
+        }
+        let correction = self.correction(&here, discrete, rows);
         for contact in rows.contacts {
             let normal = &self.walls.elements.normal[contact.element as usize];
             let moving = self.walls.elements.velocity_at(&contact);
@@ -65,30 +73,6 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             wall: wall * scale,
             source: source * scale,
         }
-    }
-
-    /// κ from the sums of the explicit term.
-    fn correction_of(&self, here: &OwnValues<D>, rows: &Neighbourhood<'_, D>) -> f64 {
-        if here.nearest.is_none() {
-            return 1.0;
-        }
-        let (mut discrete, mut gradient) = (Vect::zeros(), Vect::zeros());
-        let volume = here.volume;
-        for (j, pair) in rows.free.pairs() {
-            let there = self.volume[j];
-            discrete += pair.separation * self.friction.shear(volume, there, &here.along, &pair);
-        }
-        for (v, pair) in rows.wall.pairs() {
-            let there = self.walls.points.volume[v];
-            let shear = self.friction.shear(volume, there, &here.along, &pair);
-            discrete += pair.separation * (self.walls.points.share[v] * shear);
-        }
-        for contact in rows.contacts {
-            if !self.is_open(contact.element) {
-                gradient += contact.gradient;
-            }
-        }
-        self.correction(here, discrete, gradient)
     }
 }
 
