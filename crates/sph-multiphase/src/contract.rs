@@ -1,8 +1,9 @@
 //! The traits of formulations and interface models, and the stage that applies the equations of state.
 
+use rayon::prelude::*;
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
 use sph_core::{
-    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Work, contract, fields,
+    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Work, contract, fields, stage,
 };
 use sph_neighbours::{Interaction, World, by_phase};
 use sph_rheology::state::BoundState;
@@ -26,15 +27,30 @@ pub struct Compressed {
 }
 
 /// The definition of density and the pressure gradient that belongs to it.
+///
+/// By default it integrates the density, d ln ρ/dt = −D{u}, and V = m/ρ.
 pub trait Formulation<const D: usize>: Send + Sync {
     /// The scalar it integrates in time, which density diffusion changes.
-    fn diffused(&self) -> Diffused;
+    fn diffused(&self) -> Diffused {
+        Diffused {
+            evolved: Evolved {
+                value: fields::DENSITY,
+                rate: fields::DENSITY_RATE,
+            },
+            per_density: |_, _, _| 1.0,
+        }
+    }
     /// The scalar that drifts with the divergence, for formulations that integrate continuity.
     fn compressed(&self) -> Option<Compressed> {
-        None
+        Some(Compressed {
+            value: fields::DENSITY,
+            exponent: -1.0,
+        })
     }
     /// The stages that give density and volume at the present state.
-    fn stages(&self) -> Stages<D>;
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(volumes())]
+    }
     /// The pressure term of the interaction sweep.
     fn pressure_term(&self) -> Box<dyn Interaction<D>>;
     /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of [`Rates`](sph_neighbours::Rates),
@@ -57,6 +73,21 @@ pub trait Formulation<const D: usize>: Send + Sync {
     fn rebase(&self, _world: &mut World<D>) -> Result<(), StepError> {
         Ok(())
     }
+}
+
+/// V = m/ρ.
+pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::MASS, fields::DENSITY))
+        .writes(fields::VOLUME);
+    stage("volume", access, |world: &mut World<D>| {
+        let mut volume = world.free.take(fields::VOLUME)?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
+        let all = volume.par_iter_mut().zip(mass).zip(density);
+        let all = all.with_min_len(2048);
+        all.for_each(|((v, m), rho)| *v = m / rho);
+        Ok(world.free.put(fields::VOLUME, volume)?)
+    })
 }
 
 contract!(
