@@ -7,8 +7,8 @@ use sph_core::plugin;
 use crate::laws::imposed_velocity;
 use crate::profile::{FactorTable, check_course, factor, range};
 use crate::{
-    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
-    OpenRefusal, OpenSetting, Profile,
+    Entering, FaceElement, FaceValues, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
+    OpenSetting, Profile,
 };
 
 /// Fluid passes with a given velocity along the normal of the face, for any fluid in front of it.
@@ -70,15 +70,9 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         let one = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
         Some(now * places.iter().map(one).sum::<f64>())
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        _: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);
-        let one = |place: &FaceElement<D>| imposed_velocity(place, now * self.profile.at(place));
-        places.iter().map(one).collect()
+        moment.each(|place, _| imposed_velocity(place, now * self.profile.at(place)))
     }
 }
 
@@ -130,27 +124,20 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
     fn asked(&self, _: &[FaceElement<D>], time: f64) -> Option<f64> {
         Some(self.rate * factor(&self.over_time, time))
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let now = self.rate * factor(&self.over_time, moment.time);
-        let each = || places.iter().zip(inside);
+        let places = moment.places;
         let weight = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
-        let wetted = each().filter(|(_, i)| i.wet);
+        let wetted = places.iter().zip(moment.inside).filter(|(_, i)| i.wet);
         let wet: f64 = wetted.map(|(p, i)| weight(p) * i.filled).sum();
         // Through less than an element there would be a jet.
         let wet = wet.max(places.iter().map(weight).sum::<f64>() / places.len() as f64);
-        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| match inside.wet && wet > 0.0
-        {
+        moment.each(|place, inside| match inside.wet && wet > 0.0 {
             true => FaceValues {
                 share: Some(inside.filled),
                 ..imposed_velocity(place, now / wet * self.profile.at(place))
             },
             false => FaceValues::dry(),
-        };
-        each().map(one).collect()
+        })
     }
 }

@@ -132,19 +132,12 @@ impl<const D: usize> WaveMaker<D> {
     fn second_order(&self, paddle: Paddle, depth: f64, waves: &[Component]) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         let unfit = "second order is for regular waves of a piston: take 1";
-        match waves.is_empty() {
-            true => Ok(false),
-            false => second_order(waves, depth, self.order, (fits, unfit)),
-        }
+        second_order(waves, depth, self.order, (fits, unfit))
     }
 
     /// The motion at the still level, m.
     fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
-        let waves = self.waves.components(depth, gravity, 0.0);
-        let Some(first) = waves.first() else {
-            let why = "there is no wave in the `band`: `repeat` is too short";
-            return refuse("waves", why);
-        };
+        let waves = self.waves.components(depth, gravity, 0.0)?;
         let part = |w: &Component| SinePart {
             amplitude: w.amplitude / paddle.transfer(w.wavenumber, depth),
             frequency: w.frequency,
@@ -152,6 +145,7 @@ impl<const D: usize> WaveMaker<D> {
         };
         let mut parts: Vec<SinePart> = waves.iter().map(part).collect();
         if self.second_order(paddle, depth, &waves)? {
+            let first = waves[0];
             let kd = first.wavenumber * depth;
             let height = 2.0 * first.amplitude;
             let bound = 3.0 * kd.cosh() / kd.sinh().powi(3);
@@ -182,7 +176,7 @@ impl<const D: usize> WaveMaker<D> {
             return refuse("absorb", "the paddle has no breadth across the waves");
         };
         let [_, period] = self.waves.size();
-        let waves = self.waves.components(water[0], water[1], 0.0);
+        let waves = self.waves.components(water[0], water[1], 0.0)?;
         let second = self.second_order(paddle, water[0], &waves)?;
         let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
         let timing = (ramp, period, least);

@@ -197,7 +197,15 @@ impl Waves {
 
     /// The linear waves of which they consist, in water of a depth, m, that runs with them, or against them, at the velocity
     /// `current`, m/s. Those that no current lets run against it are left out.
-    pub fn components(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn components(
+        &self,
+        depth: f64,
+        gravity: f64,
+        current: f64,
+    ) -> Result<Vec<Component>, MoverRefusal> {
         let one = |frequency: f64, amplitude: f64, phase: f64| {
             let omega = TAU * frequency;
             Some(Component {
@@ -212,7 +220,7 @@ impl Waves {
             peak: 1.0 / period,
             enhancement,
         };
-        match self {
+        let waves = match self {
             Waves::Regular(w) => Vec::from_iter(one(1.0 / w.period, 0.5 * w.height, 0.0)),
             Waves::Irregular(w) => {
                 let sea = sea(w.height, w.period, w.enhancement);
@@ -235,6 +243,13 @@ impl Waves {
                 };
                 all.into_iter().filter_map(meets).collect()
             }
+        };
+        match waves.is_empty() {
+            true => refuse(
+                "waves",
+                "there is no wave in the `band`: `repeat` is too short",
+            ),
+            false => Ok(waves),
         }
     }
 }
@@ -257,7 +272,7 @@ mod tests {
     fn a_focused_group_meets_where_and_when_it_is_asked_to() {
         let waves = waves("focused = { crest = 0.08, period = 1.2, at = 3.0, time = 9.0 }");
         assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
-        let all = waves.components(0.5, 9.81, 0.0);
+        let all = waves.components(0.5, 9.81, 0.0).expect("waves");
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
         for [x, t] in [[3.0, 9.6], [2.5, 9.0], [3.0, 3.0], [0.0, 9.0]] {
             assert!(level(&all, x, t) < 0.07, "{x} {t}");
@@ -268,7 +283,8 @@ mod tests {
     fn a_sea_repeats_itself_and_is_the_same_for_a_seed() {
         let sea = |seed: u64| {
             let sea = format!("height = 0.06, period = 1.2, repeat = 24.0, seed = {seed}");
-            waves(&format!("irregular = {{ {sea} }}")).components(0.5, 9.81, 0.0)
+            let waves = waves(&format!("irregular = {{ {sea} }}"));
+            waves.components(0.5, 9.81, 0.0).expect("waves")
         };
         let all = sea(7);
         assert_eq!(all, sea(7));
