@@ -5,20 +5,14 @@ use sph_multiphase::linear::{Automatic, Cholesky, LinearSolver, Matrix, Report};
 
 use crate::systems::{apart, block, right, scalar};
 
-fn taken<const D: usize>(matrix: &Matrix<D>) -> (Report, Vec<Vect<D>>)
-where
-    Automatic: LinearSolver<D>,
-{
+fn taken<const D: usize>(matrix: &Matrix<D>) -> (Report, Vec<Vect<D>>) {
     let b = right(matrix.rows());
     let mut x = vec![Vect::zeros(); b.len()];
     let report = Automatic::default().solve(matrix, &b, &mut x);
     (report.expect("a solution"), x)
 }
 
-fn method<const D: usize>(matrix: &Matrix<D>) -> &'static str
-where
-    Automatic: LinearSolver<D>,
-{
+fn method<const D: usize>(matrix: &Matrix<D>) -> &'static str {
     taken(matrix).0.method
 }
 
