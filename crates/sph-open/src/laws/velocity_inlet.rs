@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sph_core::plugin;
 
 use crate::laws::imposed_velocity;
-use crate::profile::{FactorTable, check_course, factor, range};
+use crate::profile::{FactorTable, check_course, factor, turns_negative};
 use crate::{
     Entering, FaceElement, FaceValues, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
     OpenSetting, Profile,
@@ -63,7 +63,7 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         }
     }
     fn lets_out(&self) -> bool {
-        range(&self.over_time, self.velocity)[0] < 0.0
+        turns_negative(&self.over_time, self.velocity)
     }
     fn asked(&self, places: &[FaceElement<D>], time: f64) -> Option<f64> {
         let now = self.velocity * factor(&self.over_time, time);
@@ -119,7 +119,7 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         }
     }
     fn lets_out(&self) -> bool {
-        range(&self.over_time, self.rate)[0] < 0.0
+        turns_negative(&self.over_time, self.rate)
     }
     fn asked(&self, _: &[FaceElement<D>], time: f64) -> Option<f64> {
         Some(self.rate * factor(&self.over_time, time))

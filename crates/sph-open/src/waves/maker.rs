@@ -108,10 +108,10 @@ impl<const D: usize> WaveMaker<D> {
         let given = Vect::<D>::from_column_slice(along);
         match given.try_normalize(0.0) {
             Some(unit) if unit[D - 1] == 0.0 && unit.iter().all(|x| x.is_finite()) => Ok(unit),
-            _ => refuse(
-                "along",
-                "waves run horizontally: the last number is 0, another is not",
-            ),
+            _ => {
+                let why = "waves run horizontally: the last number is 0, another is not";
+                refuse("along", why)
+            }
         }
     }
 

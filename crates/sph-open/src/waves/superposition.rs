@@ -7,7 +7,7 @@ use sph_core::parameters;
 
 use crate::refuse;
 use crate::waves::dispersion::wavenumber_on;
-use crate::waves::spectrum::{Jonswap, phases};
+use crate::waves::spectrum::{jonswap, phases};
 
 /// One linear wave, η = a cos(ωt − kx + φ) with x from the paddle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,24 +215,19 @@ impl Waves {
                 phase,
             })
         };
-        let sea = |height: f64, period: f64, enhancement: f64| Jonswap {
-            height,
-            peak: 1.0 / period,
-            enhancement,
-        };
         let waves = match self {
             Waves::Regular(w) => Vec::from_iter(one(1.0 / w.period, 0.5 * w.height, 0.0)),
             Waves::Irregular(w) => {
-                let sea = sea(w.height, w.period, w.enhancement);
-                let all = sea.components(1.0 / w.repeat, w.band.map(|f| f / w.period));
+                let sea = [w.height, 1.0 / w.period, w.enhancement];
+                let all = jonswap(sea, 1.0 / w.repeat, w.band.map(|f| f / w.period));
                 let both = all.into_iter().zip(phases(w.seed));
                 both.filter_map(|([f, a], phase)| one(f, a, phase))
                     .collect()
             }
             Waves::Focused(w) => {
-                let sea = sea(1.0, w.period, w.enhancement);
                 let [low, high] = w.band.map(|f| f / w.period);
-                let all = sea.components((high - low) / GROUP, [low, high]);
+                let sea = [1.0, 1.0 / w.period, w.enhancement];
+                let all = jonswap(sea, (high - low) / GROUP, [low, high]);
                 let whole: f64 = all.iter().map(|[_, a]| a * a).sum();
                 let meets = |[f, a]: [f64; 2]| {
                     let wave = one(f, w.crest * a * a / whole, 0.0)?;
