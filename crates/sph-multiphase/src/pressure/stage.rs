@@ -3,13 +3,13 @@
 use nalgebra::Vector6;
 use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
 use sph_neighbours::{FreeBody, Interaction, World, interactions, lattice_sum};
-use sph_rheology::state::BoundState;
+use sph_rheology::state::{BoundState, Laws};
 
 use crate::linear::{
     Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, Operator, ParticleMatrix,
 };
 use crate::pressure::system::{ClusterCoefficients, Couplings, Part};
-use crate::{Acting, FREE_SURFACE, Place, PressureStage};
+use crate::{Acting, FREE_SURFACE, Place};
 
 const NAME: &str = "implicit pressure";
 
@@ -18,7 +18,8 @@ const TORN: f64 = 0.5;
 
 /// Applies the equations of state, and solves for the pressure of the end of the step.
 pub(crate) struct SolvePressure<const D: usize> {
-    state: PressureStage,
+    state: Box<dyn Stage<World<D>>>,
+    laws: Laws,
     /// The rate at which the density falls.
     dilatation: [Box<dyn Interaction<D>>; 1],
     surfaces: bool,
@@ -92,8 +93,9 @@ impl<const D: usize> SolvePressure<D> {
             pressure[0]
         };
         SolvePressure {
-            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
+            floors: acting.laws.iter().map(|law| floor(&**law)).collect(),
             state: acting.state,
+            laws: acting.laws,
             dilatation: [acting.dilatation],
             surfaces: acting.surfaces,
             solver,
@@ -168,7 +170,7 @@ impl<const D: usize> SolvePressure<D> {
         let Scratch { parts, rate, .. } = &mut self.scratch;
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
-            let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
+            let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
             let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
             let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
             let compliance = size / stiffness;
@@ -196,10 +198,8 @@ impl<const D: usize> SolvePressure<D> {
 
 /// Refuses supports that lack fluid where free surfaces are not defined: their pressure would float.
 fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
-    let (Ok(constant), Ok(density)) = (
-        world.free.get(fields::DENSITY_CONSTANT),
-        world.free.get(fields::DENSITY),
-    ) else {
+    let columns = (fields::DENSITY_CONSTANT, fields::DENSITY);
+    let Ok((constant, density)) = world.free.all(columns) else {
         return Ok(());
     };
     let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;
