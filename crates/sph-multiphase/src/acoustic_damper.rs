@@ -133,15 +133,11 @@ fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> 
     let remedy = "a smaller `strength` of the damper lengthens the step";
     // Lattice and kernel stay.
     let wave = OnceLock::new();
-    bound(
-        "acoustic damper",
-        formula,
-        Some(remedy),
-        move |world: &World<D>| {
-            let wave = wave.get_or_init(|| shortest_wave(world));
-            Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
-        },
-    )
+    let dt = move |world: &World<D>| {
+        let wave = wave.get_or_init(|| shortest_wave(world));
+        Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
+    };
+    bound("acoustic damper", formula, Some(remedy), dt)
 }
 
 /// P_ab = q_a V_a² + q_b V_b²; a wall resists as the particle does.

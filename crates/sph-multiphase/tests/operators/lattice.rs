@@ -36,15 +36,6 @@ fn y_squared_gives_1948_1995_19984_19998_in_2d_and_1958_1999_in_3d() {
     }
 }
 
-#[test]
-fn linear_velocity_has_no_viscous_force_in_the_bulk() {
-    let mut world = world(lattice::<2>(15), open(), 1.0 / 15.0, 2.0);
-    set_velocity(&mut world, |x| Vect::<2>::new(3.0 * x[1] - x[0], x[0]));
-    let force = acceleration(&world, viscosity(1.0))[at(&world, Vect::repeat(0.5))];
-    // ν u/h² ≈ 200 as a scale, cancelled by symmetry to rounding.
-    assert!(force.norm() < 1e-11, "{force}");
-}
-
 /// −∇p/ρ of p = 1 + 0.3 y: the lattice is symmetric, so the level of p drops out.
 #[test]
 fn a_linear_pressure_accelerates_by_its_slope_to_1_per_cent_whatever_its_level() {

@@ -2,7 +2,7 @@
 
 use sph_core::{Access, StepError, Vect};
 use sph_neighbours::{
-    Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
+    Cluster, Kinds, Lane, LanePair, Neighbourhood, PairNumbers, PairTerm, Particles, World,
 };
 
 use super::{BoundFriction, OwnValues, PairFriction, ViscousTerm};
@@ -26,15 +26,6 @@ impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
 }
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// −α and −β of a wall point times its viscosity.
-    #[inline(always)]
-    fn at_point(&self, here: &OwnValues<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
-        let (distance2, factor) = (pair.distance2, pair.factor);
-        let friction = self.friction;
-        let strengths = friction.strengths(here.volume, there, distance2, factor);
-        strengths.map(|s| -(s * eta))
-    }
-
     /// W and s of walls; `at_element` gives the friction on an element, and the velocity to which it draws the particle, from
     /// the normal, the velocity of the element and its friction along the wall.
     fn walls<E: Entry<D>>(
@@ -47,7 +38,10 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         let (mut wall, mut source) = (E::ZERO, Vect::zeros());
         for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [even, along] = self.at_point(&here, self.walls.points.volume[v], &pair, rubbing);
+            let there = self.walls.points.volume[v];
+            let factors =
+                (self.friction).strengths(here.volume, there, pair.distance2, pair.factor);
+            let [even, along] = factors.map(|s| -(s * rubbing));
             let friction = E::central(even, along, &pair.separation);
             wall = wall + friction;
             source += friction.apply(&self.walls.points.viscous_velocity[v]);
