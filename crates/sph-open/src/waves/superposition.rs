@@ -150,48 +150,43 @@ impl Waves {
             Waves::Irregular(_) => "waves.irregular",
             Waves::Focused(_) => "waves.focused",
         };
-        let fault = self.fault(depth, gravity, current);
-        fault.map_or(Ok(()), |why| refuse(name, why))
-    }
-
-    /// The reason that the numbers do not fit, if they do not.
-    fn fault(&self, depth: f64, gravity: f64, current: f64) -> Option<String> {
+        let refused = |why: String| refuse(name, why);
         let [height, period] = self.size();
         let positive = |x: f64| x > 0.0 && x.is_finite();
         if !positive(height) || !positive(period) {
-            return Some("heights and periods are numbers above 0".into());
+            return refused("heights and periods are numbers above 0".into());
         }
         let Some(k) = wavenumber_on(TAU / period, depth, gravity, current) else {
-            return Some(format!(
+            return refused(format!(
                 "no wave with a period of {period} s runs against a current of {:.4} m/s in water {depth:.4} m deep",
                 -current
             ));
         };
         let breaks = 0.142 * TAU / k * (k * depth).tanh();
         if height > breaks {
-            return Some(format!(
+            return refused(format!(
                 "a wave of {height:.4} m breaks: with this period and depth none is higher than {breaks:.4} m (Miche)"
             ));
         }
         let (gamma, [low, high]) = match self {
-            Waves::Regular(_) => return None,
+            Waves::Regular(_) => return Ok(()),
             Waves::Irregular(w) => (w.enhancement, w.band),
             Waves::Focused(w) => (w.enhancement, w.band),
         };
         if !(gamma >= 1.0 && gamma.is_finite()) {
-            return Some(format!("`enhancement` is at least 1, and here {gamma}"));
+            return refused(format!("`enhancement` is at least 1, and here {gamma}"));
         }
         if !(low > 0.0 && low < 1.0 && high > 1.0 && high.is_finite()) {
-            return Some("`band` has a number below 1 and one above it".into());
+            return refused("`band` has a number below 1 and one above it".into());
         }
         match self {
             Waves::Irregular(w) if !(w.repeat >= 5.0 * w.period && w.repeat.is_finite()) => {
-                Some("`repeat` is to be five periods at least".into())
+                refused("`repeat` is to be five periods at least".into())
             }
             Waves::Focused(w) if !(positive(w.at) && positive(w.time)) => {
-                Some("`at` and `time` are numbers above 0".into())
+                refused("`at` and `time` are numbers above 0".into())
             }
-            _ => None,
+            _ => Ok(()),
         }
     }
 
