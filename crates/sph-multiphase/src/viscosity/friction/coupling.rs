@@ -88,10 +88,8 @@ impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for BoundFriction<'_,
         j: usize,
         pair: &LanePair<D, L>,
     ) -> [L; 3] {
-        let densities = [*density, L::splat(self.density[j])];
-        let friction = self.friction;
-        let mean = friction.means(&self.viscosity, viscosity, j, densities);
-        let there = L::splat(self.volume[j]);
+        let mean = self.means(viscosity, *density, j);
+        let (friction, there) = (self.friction, L::splat(self.volume[j]));
         let [even, along] = friction.strengths(*volume, there, pair.distance2, pair.factor);
         let eta = L::splat(-self.scale) * *volume * mean;
         let [even, along] = [even * eta, along * eta];
