@@ -79,6 +79,10 @@ impl DivergenceWeight for FilledVolume {
     fn weight<L: Lane>(self, _: L, _: L, there: L, _: L) -> L {
         there
     }
+    #[inline(always)]
+    fn at_element(self, _: f64, _: f64, _: f64) -> f64 {
+        1.0
+    }
 }
 
 /// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of [`Krimi`](crate::Krimi); derived here.
