@@ -67,44 +67,43 @@ impl Channel {
         };
         let mut world = world::<2>(positions, domain, SPACING, 2.0);
         world.free.add(fields::RENORMALISATION, Role::State);
-        let mut channel = Channel { world, top };
-        channel.draw();
-        channel.world.rebuild_lists().unwrap();
-        measure(&mut channel.world, top);
-        channel
+        world.walls = walls(top);
+        world.rebuild_lists().unwrap();
+        measure(&mut world, top);
+        Channel { world, top }
     }
+}
 
-    /// Vertices and segments of all walls.
-    fn draw(&mut self) {
-        let mut walls = WallSet::default();
-        let lines = [(0.0, 1.0)].into_iter().chain(self.top.map(|y| (y, -1.0)));
-        for (y, up) in lines {
-            for i in 0..COLUMNS {
-                let x = i as f64 * SPACING;
-                let points = &mut walls.points;
-                points.position.push(Vect::<2>::new(x, y));
-                points.velocity.push(Vect::zeros());
-                points.viscous_velocity.push(Vect::zeros());
-                points.share.push(0.5);
-                points.volume.push(SPACING * SPACING);
-                points.pressure.push(0.0);
-                points.friction_factor.push(1.0);
-                points.wall.push(0);
-                let elements = &mut walls.elements;
-                elements.centre.push(Vect::<2>::new(x + 0.5 * SPACING, y));
-                elements.normal.push(Vect::<2>::new(0.0, up));
-                elements.velocity.push(Vect::zeros());
-                elements.measure.push(SPACING);
-                elements.volume.push(SPACING * SPACING);
-                elements.pressure.push(0.0);
-                elements.friction_factor.push(1.0);
-                elements.wall.push(0);
-                let first = elements.corners.len() as u32;
-                elements.corners.push([first, first]);
-            }
+/// Vertices and segments of all walls.
+fn walls(top: Option<f64>) -> WallSet<2> {
+    let mut walls = WallSet::default();
+    let lines = [(0.0, 1.0)].into_iter().chain(top.map(|y| (y, -1.0)));
+    for (y, up) in lines {
+        for i in 0..COLUMNS {
+            let x = i as f64 * SPACING;
+            let points = &mut walls.points;
+            points.position.push(Vect::<2>::new(x, y));
+            points.velocity.push(Vect::zeros());
+            points.viscous_velocity.push(Vect::zeros());
+            points.share.push(0.5);
+            points.volume.push(SPACING * SPACING);
+            points.pressure.push(0.0);
+            points.friction_factor.push(1.0);
+            points.wall.push(0);
+            let elements = &mut walls.elements;
+            elements.centre.push(Vect::<2>::new(x + 0.5 * SPACING, y));
+            elements.normal.push(Vect::<2>::new(0.0, up));
+            elements.velocity.push(Vect::zeros());
+            elements.measure.push(SPACING);
+            elements.volume.push(SPACING * SPACING);
+            elements.pressure.push(0.0);
+            elements.friction_factor.push(1.0);
+            elements.wall.push(0);
+            let first = elements.corners.len() as u32;
+            elements.corners.push([first, first]);
         }
-        self.world.walls = walls;
     }
+    walls
 }
 
 /// γ and the shares of ∇γ at the present positions, with the height of the upper wall.

@@ -91,13 +91,11 @@ fn sliding_rows_give_2_in_the_mean() {
         .zip(scaled(OnLattice::Rows));
     for (((name, exact), (_, rows)), (_, beyond)) in both.zip(expected) {
         let (exact, rows) = (mean(&*exact) / 2.0 - 1.0, mean(&*rows) / 2.0 - 1.0);
-        println!("{name}: {exact:e} with `exact`, {rows:e} with `rows`");
         assert!(rows.abs() < 1e-6, "{name}: {rows:e}");
         assert!((exact - beyond).abs() <= 0.02 * beyond, "{name}: {exact:e}");
     }
     for (name, rows) in scaled::<3>(OnLattice::Rows) {
         let rows = slid(9, 1.5, 32, &*rows) / 2.0 - 1.0;
-        println!("{name} in 3D: {rows:e}");
         assert!(rows.abs() < 1e-4, "{name} in 3D: {rows:e}");
     }
 }

@@ -143,7 +143,6 @@ fn across_a_density_jump_a_lattice_keeps_its_atwood_number_and_less_than_a_quart
     };
     let atwood = |jump: f64| (jump - 1.0) / (jump + 1.0);
     let [small, large] = [2.0, 842.0].map(left);
-    println!("{small} and {large} of the unbalanced rate");
     assert!(large < 0.25, "{large} of the unbalanced rate");
     // The layers compress by gH/c², of which the bracket knows nothing.
     let ratio = (large / atwood(842.0)) / (small / atwood(2.0));
