@@ -70,13 +70,7 @@ pub struct WaveMaker<const D: usize> {
     #[serde(skip)]
     motion: RigidMotion<D>,
     #[serde(skip)]
-    feedback: Option<Feedback<D>>,
-}
-
-#[derive(Clone, Debug)]
-struct Feedback<const D: usize> {
-    face: Face<D>,
-    absorption: Absorption,
+    feedback: Option<(Face<D>, Absorption)>,
 }
 
 type MoverResult<T> = Result<T, MoverRefusal>;
@@ -166,7 +160,7 @@ impl<const D: usize> WaveMaker<D> {
         water: [f64; 2],
         ramp: f64,
         setting: &MoverSetting<'_, D>,
-    ) -> MoverResult<Option<Feedback<D>>> {
+    ) -> MoverResult<Option<(Face<D>, Absorption)>> {
         if !self.absorb {
             return Ok(None);
         }
@@ -180,10 +174,8 @@ impl<const D: usize> WaveMaker<D> {
         let second = self.second_order(paddle, water[0], &waves)?;
         let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
         let timing = (ramp, period, least);
-        Ok(Some(Feedback {
-            face,
-            absorption: Absorption::tuned(paddle, &waves, timing, second, water),
-        }))
+        let absorption = Absorption::tuned(paddle, &waves, timing, second, water);
+        Ok(Some((face, absorption)))
     }
 }
 
@@ -238,11 +230,11 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
         false
     }
     fn looks(&self, now: &RigidState<D>) -> Option<DepthGauge<D>> {
-        self.feedback.as_ref().map(|f| f.face.gauge(now))
+        self.feedback.as_ref().map(|(face, _)| face.gauge(now))
     }
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
         let plan = self.motion.state(time + dt);
-        let Some(Feedback { face, absorption }) = &self.feedback else {
+        let Some((face, absorption)) = &self.feedback else {
             return plan;
         };
         let besides = face.free_motion(now, &self.motion.state(time));
