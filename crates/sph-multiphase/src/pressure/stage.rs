@@ -2,8 +2,8 @@
 
 use nalgebra::Vector6;
 use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
-use sph_neighbours::{FreeBody, Interaction, World, interactions, lattice_sum};
-use sph_rheology::state::{BoundState, Laws};
+use sph_neighbours::{FreeBody, World, interactions, lattice_sum};
+use sph_rheology::state::BoundState;
 
 use crate::linear::{
     Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, Operator, ParticleMatrix,
@@ -18,11 +18,7 @@ const TORN: f64 = 0.5;
 
 /// Applies the equations of state, and solves for the pressure of the end of the step.
 pub(crate) struct SolvePressure<const D: usize> {
-    state: Box<dyn Stage<World<D>>>,
-    laws: Laws,
-    /// The rate at which the density falls.
-    dilatation: [Box<dyn Interaction<D>>; 1],
-    surfaces: bool,
+    acting: Acting<D>,
     /// The lowest pressure of every law, Pa.
     floors: Vec<f64>,
     solver: Automatic,
@@ -50,14 +46,15 @@ impl<const D: usize> Declares for SolvePressure<D> {
         NAME.into()
     }
     fn access(&self) -> Access {
-        let access = self.state.access().and(self.dilatation[0].access());
+        let access = self.acting.state.access();
+        let access = access.and(self.acting.dilatation.access());
         let access = access
             .both((fields::POSITION, fields::VOLUME, fields::DENSITY))
             // A solve starts from the pressure of the step before.
             .remembers(fields::PRESSURE)
             .where_there((fields::DENSITY_CONSTANT, fields::RENORMALISATION))
             .where_there(fields::PHASE);
-        match self.surfaces {
+        match self.acting.surfaces {
             true => access.here(FREE_SURFACE),
             false => access,
         }
@@ -70,9 +67,9 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
         let x = &mut self.scratch.pressure;
         x.clear();
         x.extend(before.map(|p| Vect::from([*p])));
-        self.state.run(world)?;
+        self.acting.state.run(world)?;
         // Later a resumed run would meet a check that an uninterrupted one did not.
-        if !self.surfaces && world.time <= 0.0 {
+        if !self.acting.surfaces && world.time <= 0.0 {
             refuse_surfaces(world)?;
         }
         match world.dt > 0.0 && world.dt.is_finite() {
@@ -94,10 +91,7 @@ impl<const D: usize> SolvePressure<D> {
         };
         SolvePressure {
             floors: acting.laws.iter().map(|law| floor(&**law)).collect(),
-            state: acting.state,
-            laws: acting.laws,
-            dilatation: [acting.dilatation],
-            surfaces: acting.surfaces,
+            acting,
             solver,
             scratch: Scratch::default(),
         }
@@ -155,7 +149,8 @@ impl<const D: usize> SolvePressure<D> {
         rate.clear();
         rate.resize(n, 0.0);
         unused.resize(n, Vect::zeros());
-        interactions(world, &self.dilatation, unused, Some(rate))
+        let terms = std::slice::from_ref(&self.acting.dilatation);
+        interactions(world, terms, unused, Some(rate))
     }
 
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
@@ -164,13 +159,13 @@ impl<const D: usize> SolvePressure<D> {
         let pressure = free.get(fields::PRESSURE)?;
         let gamma = free.get(fields::RENORMALISATION).ok();
         let phase = free.get(fields::PHASE).ok();
-        let surface = self.surfaces.then(|| free.get(FREE_SURFACE));
+        let surface = self.acting.surfaces.then(|| free.get(FREE_SURFACE));
         let surface = surface.transpose()?;
         let row = world.gravity.norm() * world.spacing;
         let Scratch { parts, rate, .. } = &mut self.scratch;
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
-            let law = &self.laws[phase.map_or(0, |p| p[i] as usize)];
+            let law = &self.acting.laws[phase.map_or(0, |p| p[i] as usize)];
             let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
             let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
             let compliance = size / stiffness;
