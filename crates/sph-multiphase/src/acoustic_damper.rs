@@ -3,15 +3,13 @@
 use std::sync::OnceLock;
 
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
-use sph_core::{Stage, StepError, Symmetric, Vect, fields, plugin, stage};
-use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, Particles, Rates, Sums, Values, WallSet, World, add_scaled,
-    all_sums, declared, pair_sum, pair_term, walk_some,
-};
+use sph_core::{Field, Scalar, Stage, StepError, Symmetric, Vect, fields, plugin, stage};
+use sph_neighbours::{Lane, Sums, Values, World, all_sums, declared, walk_some};
 use sph_rheology::state::Reference;
 
 use crate::damping::DampingEntry;
 use crate::divergence::{Divergence, OwnVolume};
+use crate::gradient::{PairPressure, PairState, PressureGradient, SquaredVolumes};
 use crate::interface_limit::shortest_wave;
 use crate::surface::MOMENT_EXCESS;
 
@@ -50,7 +48,7 @@ impl<const D: usize> Contribution<D> for AcousticDamper {
         let impedance = |r: Reference| self.strength * r.density * r.sound_speed;
         let densities = laws.clone().map(|r| r.density).collect();
         offer.stage(resistance(laws.clone().map(impedance).collect(), densities));
-        offer.term(DampingForce);
+        offer.term(PressureGradient(DampingForce));
         if self.strength > 0.0 {
             let fastest = laws.map(|r| r.sound_speed).fold(0.0, f64::max);
             offer.limiter(damper_limit(self.strength, fastest));
@@ -135,72 +133,26 @@ fn damper_limit<const D: usize>(strength: f64, fastest: f64) -> impl Limiter<D> 
     let remedy = "a smaller `strength` of the damper lengthens the step";
     // Lattice and kernel stay.
     let wave = OnceLock::new();
-    bound(
-        "acoustic damper",
-        formula,
-        Some(remedy),
-        move |world: &World<D>| {
-            let wave = wave.get_or_init(|| shortest_wave(world));
-            Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
-        },
-    )
+    let dt = move |world: &World<D>| {
+        let wave = wave.get_or_init(|| shortest_wave(world));
+        Ok(1.0 / (strength * world.kernel.smoothing_length() * fastest * wave * wave))
+    };
+    bound("acoustic damper", formula, Some(remedy), dt)
 }
 
+/// P_ab = q_a V_a² + q_b V_b²; a wall resists as the particle does.
+#[derive(Clone, Copy)]
 struct DampingForce;
 
-#[pair_term(DampingForce, "acoustic damper")]
-struct BoundDamping<'a, const D: usize> {
-    #[both(DAMPING_PRESSURE)]
-    pressure: &'a [f64],
-    #[both(fields::VOLUME)]
-    volume: &'a [f64],
-    #[here(fields::MASS)]
-    mass: &'a [f64],
-    #[value(&world.walls)]
-    walls: &'a WallSet<D>,
-}
-
-#[pair_sum]
-impl<const D: usize> BoundDamping<'_, D> {
-    const SCALED: bool = true;
-
-    /// q V².
-    fn own<L: Lane>(&self, all: Particles) -> L {
-        let volume = all.numbers::<L>(self.volume);
-        all.numbers::<L>(self.pressure) * volume * volume
+impl PairPressure for DampingForce {
+    const NAME: &'static str = "acoustic damper";
+    const PRESSURE: Field<Scalar> = DAMPING_PRESSURE;
+    #[inline(always)]
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
+        SquaredVolumes.pair(here, there)
     }
-    fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut ([L; D], L)) {
-        let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
-        add_scaled(&mut sum.0, &pair.separation, (*own + other) * pair.factor);
-    }
-    fn pair_at_walls<L: Lane>(
-        &self,
-        own: &L,
-        j: usize,
-        pair: &LanePair<D, L>,
-        sum: &mut Self::Sum<L>,
-    ) {
-        let other = L::splat(self.pressure[j] * self.volume[j] * self.volume[j]);
-        sum.1 += (*own + other) * pair.value;
-    }
-
-    fn finish(&self, sum: ([f64; D], f64), at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let i = at.particle;
-        // The wall resists as the particle does.
-        let (pressure, own) = (self.pressure[i], self.volume[i]);
-        let against = |volume: f64| pressure * (own * own + volume * volume);
-        let (mut sum, of_values) = (Vect::from(sum.0), sum.1);
-        if let Some(scale) = at.scale() {
-            let itself = 2.0 * pressure * own * own * scale.own_value;
-            sum += scale.slope * (of_values + itself);
-        }
-        for (v, pair) in at.wall.pairs() {
-            let weight = self.walls.points.share[v] * against(self.walls.points.volume[v]);
-            sum += pair.separation * (weight * pair.factor);
-        }
-        for contact in at.contacts {
-            sum -= contact.gradient * (against(contact.volume) / contact.volume);
-        }
-        rates.acceleration -= sum * (1.0 / self.mass[i] * at.inverse_renormalisation);
+    #[inline(always)]
+    fn at_wall(self, here: PairState, there: PairState) -> f64 {
+        here.pressure * (here.volume * here.volume + there.volume * there.volume)
     }
 }

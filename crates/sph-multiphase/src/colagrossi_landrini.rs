@@ -1,13 +1,11 @@
 //! Formulations that integrate the density: Colagrossi and Landrini's, and that of Krimi et al. (2018).
 
-use rayon::prelude::*;
-use sph_contribution::Stages;
-use sph_core::{Access, Evolved, Stage, fields, parameters, plugin, stage};
-use sph_neighbours::{Interaction, World};
+use sph_core::{parameters, plugin};
+use sph_neighbours::Interaction;
 
 use crate::divergence::{DensityWeighted, Divergence, NeighbourVolume};
 use crate::gradient::{BetweenParticles, PressureGradient, SumOfPressures};
-use crate::{Compressed, Diffused, Formulation, FormulationEntry};
+use crate::{Formulation, FormulationEntry};
 
 /// dρ_a/dt = −ρ_a D_a{u}, V = m/ρ, with
 /// D_a{u} = −1/γ_a [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as] and its adjoint
@@ -25,58 +23,12 @@ use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 pub struct ColagrossiLandrini {}
 
 impl<const D: usize> Formulation<D> for ColagrossiLandrini {
-    fn diffused(&self) -> Diffused {
-        integrated_density()
-    }
-    fn compressed(&self) -> Option<Compressed> {
-        Some(compressed_density())
-    }
-    fn stages(&self) -> Stages<D> {
-        vec![Box::new(volumes())]
-    }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(SumOfPressures)
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
         Divergence::boxed(NeighbourVolume)
     }
-}
-
-/// Density diffusion of a formulation that integrates the density itself.
-fn integrated_density() -> Diffused {
-    Diffused {
-        evolved: Evolved {
-            value: fields::DENSITY,
-            rate: fields::DENSITY_RATE,
-        },
-        per_density: |_, _, _| 1.0,
-    }
-}
-
-/// d ln ρ/dt = −D{u}.
-fn compressed_density() -> Compressed {
-    Compressed {
-        value: fields::DENSITY,
-        exponent: -1.0,
-    }
-}
-
-/// V = m/ρ.
-pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
-    let access = Access::none()
-        .here((fields::MASS, fields::DENSITY))
-        .writes(fields::VOLUME);
-    stage("volume", access, |world: &mut World<D>| {
-        let mut volume = world.free.take(fields::VOLUME)?;
-        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
-        let all = volume
-            .par_iter_mut()
-            .zip(mass)
-            .zip(density)
-            .with_min_len(2048);
-        all.for_each(|((v, m), rho)| *v = m / rho);
-        Ok(world.free.put(fields::VOLUME, volume)?)
-    })
 }
 
 /// m_a a = −1/γ_a Σ_b θ_b (V_a² + V_b²) p̃_ab ∇w_ab with the pressure between two particles,
@@ -117,15 +69,6 @@ pub enum Continuity {
 }
 
 impl<const D: usize> Formulation<D> for Krimi {
-    fn diffused(&self) -> Diffused {
-        integrated_density()
-    }
-    fn compressed(&self) -> Option<Compressed> {
-        Some(compressed_density())
-    }
-    fn stages(&self) -> Stages<D> {
-        vec![Box::new(volumes())]
-    }
     fn pressure_term(&self) -> Box<dyn Interaction<D>> {
         PressureGradient::boxed(BetweenParticles)
     }

@@ -1,11 +1,10 @@
 //! The traits of formulations and interface models, and the stage that applies the equations of state.
 
+use rayon::prelude::*;
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, Stages, contribution_kind};
-use sph_core::{
-    Access, Declares, Evolved, Field, Scalar, Stage, StepError, Work, contract, fields,
-};
+use sph_core::{Access, Evolved, Field, Scalar, Stage, StepError, Work, contract, fields, stage};
 use sph_neighbours::{Interaction, World, by_phase};
-use sph_rheology::state::BoundState;
+use sph_rheology::state::Laws;
 
 /// Density diffusion in the terms of a formulation.
 #[derive(Clone, Copy)]
@@ -26,15 +25,30 @@ pub struct Compressed {
 }
 
 /// The definition of density and the pressure gradient that belongs to it.
+///
+/// By default it integrates the density, d ln ρ/dt = −D{u}, and V = m/ρ.
 pub trait Formulation<const D: usize>: Send + Sync {
     /// The scalar it integrates in time, which density diffusion changes.
-    fn diffused(&self) -> Diffused;
+    fn diffused(&self) -> Diffused {
+        Diffused {
+            evolved: Evolved {
+                value: fields::DENSITY,
+                rate: fields::DENSITY_RATE,
+            },
+            per_density: |_, _, _| 1.0,
+        }
+    }
     /// The scalar that drifts with the divergence, for formulations that integrate continuity.
     fn compressed(&self) -> Option<Compressed> {
-        None
+        Some(Compressed {
+            value: fields::DENSITY,
+            exponent: -1.0,
+        })
     }
     /// The stages that give density and volume at the present state.
-    fn stages(&self) -> Stages<D>;
+    fn stages(&self) -> Stages<D> {
+        vec![Box::new(volumes())]
+    }
     /// The pressure term of the interaction sweep.
     fn pressure_term(&self) -> Box<dyn Interaction<D>>;
     /// D{u}, the divergence that belongs to the pressure gradient, as the scalar of [`Rates`](sph_neighbours::Rates),
@@ -59,6 +73,21 @@ pub trait Formulation<const D: usize>: Send + Sync {
     }
 }
 
+/// V = m/ρ.
+pub(crate) fn volumes<const D: usize>() -> impl Stage<World<D>> {
+    let access = Access::none()
+        .here((fields::MASS, fields::DENSITY))
+        .writes(fields::VOLUME);
+    stage("volume", access, |world: &mut World<D>| {
+        let mut volume = world.free.take(fields::VOLUME)?;
+        let (mass, density) = world.free.all((fields::MASS, fields::DENSITY))?;
+        let all = volume.par_iter_mut().zip(mass).zip(density);
+        let all = all.with_min_len(2048);
+        all.for_each(|((v, m), rho)| *v = m / rho);
+        Ok(world.free.put(fields::VOLUME, volume)?)
+    })
+}
+
 contract!(
     /// A formulation that a scene may name.
     pub FormulationEntry, "formulation", One, "density and the pressure gradient that belongs to it",
@@ -68,7 +97,9 @@ contract!(
 /// Input of a [`PressureScheme`].
 pub struct Acting<const D: usize> {
     /// The stage that applies the equations of state.
-    pub state: PressureStage,
+    pub state: Box<dyn Stage<World<D>>>,
+    /// These, in the order of the phase numbers.
+    pub laws: Laws,
     /// −D lnρ/Dt by motion, 1/s, as [`Formulation::dilatation`].
     pub dilatation: Box<dyn Interaction<D>>,
     /// True if the scene chooses a finder of free surfaces; [`FREE_SURFACE`](crate::FREE_SURFACE) is then there.
@@ -112,50 +143,32 @@ pub fn offer_interface<const D: usize>(
     Ok(())
 }
 
-/// p = p(ρ) or p(ρ, γ̇), phase by phase; one virtual call per run of particles of the same phase.
-pub struct PressureStage {
-    /// The laws, in the order of the phase numbers.
-    pub laws: std::sync::Arc<[Box<dyn BoundState>]>,
-}
-
-impl Declares for PressureStage {
-    fn name(&self) -> String {
-        "equation of state".into()
+/// The stage of p = p(ρ) or p(ρ, γ̇), phase by phase, with the laws in the order of the phase numbers.
+///
+/// One virtual call per run of particles of the same phase.
+pub fn equations_of_state<const D: usize>(laws: Laws) -> impl Stage<World<D>> {
+    let sheared = laws.iter().any(|law| law.needs_strain_rate());
+    let several = laws.len() != 1;
+    let mut access = Access::none()
+        .here(fields::DENSITY)
+        .writes(fields::PRESSURE);
+    if sheared {
+        access = access.here(fields::STRAIN_RATE);
     }
-    fn access(&self) -> Access {
-        let mut access = Access::none()
-            .here(fields::DENSITY)
-            .writes(fields::PRESSURE);
-        if self.sheared() {
-            access = access.here(fields::STRAIN_RATE);
-        }
-        if self.laws.len() != 1 {
-            access = access.here(fields::PHASE);
-        }
-        access
+    if several {
+        access = access.here(fields::PHASE);
     }
-}
-
-impl PressureStage {
-    /// True if some law reads the strain rate.
-    fn sheared(&self) -> bool {
-        self.laws.iter().any(|law| law.needs_strain_rate())
-    }
-}
-
-impl<const D: usize> Stage<World<D>> for PressureStage {
-    fn run(&mut self, world: &mut World<D>) -> Result<(), StepError> {
+    stage("equation of state", access, move |world: &mut World<D>| {
         let mut pressure = world.free.take(fields::PRESSURE)?;
         let density = world.free.get(fields::DENSITY)?;
-        let strain_rate = self.sheared().then(|| world.free.get(fields::STRAIN_RATE));
+        let strain_rate = sheared.then(|| world.free.get(fields::STRAIN_RATE));
         let strain_rate = strain_rate.transpose()?.unwrap_or_default();
-        let several = self.laws.len() != 1;
         let phase = several.then(|| world.free.get(fields::PHASE)).transpose()?;
         by_phase(phase, &mut pressure, |law, run, pressure| {
             // Without the column all slices of it are empty.
             let rate = strain_rate.get(run.clone()).unwrap_or_default();
-            self.laws[law].sheared_pressure(&density[run], rate, pressure);
+            laws[law].sheared_pressure(&density[run], rate, pressure);
         });
         Ok(world.free.put(fields::PRESSURE, pressure)?)
-    }
+    })
 }

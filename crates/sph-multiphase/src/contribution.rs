@@ -10,7 +10,7 @@ use sph_neighbours::{Interaction, interactions};
 
 use crate::{
     Acting, Compressed, Formulation, FormulationEntry, PressureEntry, PressureScheme,
-    PressureStage, interface_limit,
+    equations_of_state, interface_limit,
 };
 
 /// The formulation that a scene names, with its equations of state.
@@ -38,9 +38,7 @@ impl<const D: usize> FromPlugins<D> for Compressible<D> {
 impl<const D: usize> Contribution<D> for Compressible<D> {
     fn offer(&mut self, setting: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
         offer.stages = self.formulation.stages();
-        let state = PressureStage {
-            laws: setting.laws.clone(),
-        };
+        let state = equations_of_state(setting.laws.clone());
         match &self.scheme {
             None => {
                 offer.stage(state);
@@ -54,7 +52,8 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
             }
             Some(scheme) => {
                 offer.stages.push(scheme.stage(Acting {
-                    state,
+                    state: Box::new(state),
+                    laws: setting.laws.clone(),
                     dilatation: self.formulation.dilatation(),
                     surfaces: self.surfaces,
                 }));
@@ -64,31 +63,24 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
         offer.terms.push(self.formulation.pressure_term());
         if let Some(compressed) = self.formulation.compressed() {
             offer.advanced.push(compressed.value);
-            offer.hook(Dilatation::new(compressed, self.formulation.divergence()));
+            offer.hook(Dilatation {
+                compressed,
+                term: [self.formulation.divergence()],
+                unused: Vec::new(),
+                divergence: Vec::new(),
+            });
         }
         Ok(())
     }
 }
 
 /// The divergence of a formulation, at work while positions drift.
-pub struct Dilatation<const D: usize> {
+struct Dilatation<const D: usize> {
     compressed: Compressed,
     term: [Box<dyn Interaction<D>>; 1],
     /// The sweep sums accelerations, too; they are not read.
     unused: Vec<Vect<D>>,
     divergence: Vec<f64>,
-}
-
-impl<const D: usize> Dilatation<D> {
-    /// Of a scalar, with the divergence term of its formulation.
-    pub fn new(compressed: Compressed, term: Box<dyn Interaction<D>>) -> Self {
-        Dilatation {
-            compressed,
-            term: [term],
-            unused: Vec::new(),
-            divergence: Vec::new(),
-        }
-    }
 }
 
 impl<const D: usize> StepHook<D> for Dilatation<D> {

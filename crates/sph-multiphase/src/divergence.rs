@@ -1,10 +1,13 @@
 //! Discrete divergences of the velocity.
 
-use sph_core::{Vect, fields};
+use sph_core::{Field, Scalar, Vect, fields};
 use sph_neighbours::{
     Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, dot, minus, pair_sum,
     pair_term,
 };
+
+/// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
+pub const KERNEL_SUM: Field<Scalar> = Field::new("kernel_sum", "1", "Σ θ V w / γ");
 
 /// The weight of a pair in D_a{u} = −1/γ_a [Σ_b θ_b W_ab u_ab·∇w_ab − Σ_s W_as/V_s u_as·∇γ_as].
 ///
@@ -13,6 +16,8 @@ use sph_neighbours::{
 pub trait DivergenceWeight: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
+    /// True if D is divided by the [kernel sum](KERNEL_SUM).
+    const FILLED: bool = false;
     /// W from the volumes and densities here and there.
     fn weight<L: Lane>(self, volume: L, density: L, there: L, there_density: L) -> L;
     /// W/V_s of a wall element from the volume and density here and its volume.
@@ -63,6 +68,23 @@ impl DivergenceWeight for NeighbourVolume {
     }
 }
 
+/// W = V_b, over d_a: belongs to [`Grenier`](crate::Grenier), Ghaïtanellis 2017, Eq. 3.14.
+#[derive(Clone, Copy, Debug)]
+pub struct FilledVolume;
+
+impl DivergenceWeight for FilledVolume {
+    const NAME: &'static str = "Grenier divergence";
+    const FILLED: bool = true;
+    #[inline(always)]
+    fn weight<L: Lane>(self, _: L, _: L, there: L, _: L) -> L {
+        there
+    }
+    #[inline(always)]
+    fn at_element(self, _: f64, _: f64, _: f64) -> f64 {
+        1.0
+    }
+}
+
 /// W = (V_a² + V_b²)/V_a · ρ_b/(ρ_a + ρ_b): the adjoint of the gradient of [`Krimi`](crate::Krimi); derived here.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityWeighted;
@@ -97,6 +119,8 @@ pub struct BoundVelocityDivergence<'a, const D: usize, W: DivergenceWeight> {
     volume: &'a [f64],
     #[both(fields::DENSITY)]
     density: &'a [f64],
+    #[both(KERNEL_SUM, if W::FILLED)]
+    kernel_sum: &'a [f64],
     #[where_there(fields::SCALE_SLOPE)]
     slope: Option<&'a [Vect<D>]>,
     #[where_there(fields::SCALE_RATE)]
@@ -155,6 +179,9 @@ impl<const D: usize, W: DivergenceWeight> BoundVelocityDivergence<'_, D, W> {
             let weight = self.weight.at_element(volume, density, contact.volume);
             let wall = self.walls.elements.velocity_at(&contact);
             sum += weight * (velocity - wall).dot(&contact.gradient);
+        }
+        if W::FILLED {
+            sum *= 1.0 / self.kernel_sum[i];
         }
         rates.scalar += sum * at.inverse_renormalisation;
     }

@@ -1,6 +1,6 @@
 //! Pressure gradients that are sums over pairs with a symmetric weight.
 
-use sph_core::{Vect, fields};
+use sph_core::{Field, Scalar, Vect, fields};
 use sph_neighbours::{
     Interaction, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, WallSet, add_scaled,
     pair_sum, pair_term,
@@ -36,10 +36,17 @@ impl<L> PairState<L> {
 pub trait PairPressure: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
+    /// The column of the pressure.
+    const PRESSURE: Field<Scalar> = fields::PRESSURE;
     /// True if P_ab reads the densities.
-    const DENSITY: bool;
+    const DENSITY: bool = false;
     /// P_ab = P_ba, Pa m^2d.
     fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L;
+    /// P_as of a wall.
+    #[inline(always)]
+    fn at_wall(self, here: PairState, there: PairState) -> f64 {
+        self.pair(here, there)
+    }
 }
 
 /// P_ab = p_a V_a² + p_b V_b²: [`HuAdams`](crate::HuAdams), Ghaïtanellis 2017, Eq. 3.25.
@@ -48,7 +55,6 @@ pub struct SquaredVolumes;
 
 impl PairPressure for SquaredVolumes {
     const NAME: &'static str = "Hu–Adams pressure gradient";
-    const DENSITY: bool = false;
     #[inline(always)]
     fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
         here.pressure * here.volume * here.volume + there.pressure * there.volume * there.volume
@@ -61,7 +67,6 @@ pub struct SumOfPressures;
 
 impl PairPressure for SumOfPressures {
     const NAME: &'static str = "Colagrossi–Landrini pressure gradient";
-    const DENSITY: bool = false;
     #[inline(always)]
     fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
         here.volume * there.volume * (here.pressure + there.pressure)
@@ -99,7 +104,7 @@ impl<P: PairPressure> PressureGradient<P> {
 pub struct BoundPressureGradient<'a, const D: usize, P: PairPressure> {
     #[value(self.0)]
     weight: P,
-    #[both(fields::PRESSURE)]
+    #[both(P::PRESSURE)]
     pressure: &'a [f64],
     #[both(fields::VOLUME)]
     volume: &'a [f64],
@@ -159,12 +164,12 @@ impl<const D: usize, P: PairPressure> BoundPressureGradient<'_, D, P> {
         let points = &self.walls.points;
         for (v, pair) in at.wall.pairs() {
             let there = PairState::new(points.pressure[v], points.volume[v], own.density);
-            let weight = points.share[v] * self.weight.pair(own, there);
+            let weight = points.share[v] * self.weight.at_wall(own, there);
             sum += pair.separation * (weight * pair.factor);
         }
         for contact in at.contacts {
             let there = PairState::new(contact.pressure, contact.volume, own.density);
-            sum -= contact.gradient * (self.weight.pair(own, there) / there.volume);
+            sum -= contact.gradient * (self.weight.at_wall(own, there) / there.volume);
         }
         let inverse_mass = 1.0 / self.mass[at.particle];
         rates.acceleration -= sum * (inverse_mass * at.inverse_renormalisation);

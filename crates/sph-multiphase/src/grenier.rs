@@ -2,17 +2,15 @@
 
 use rayon::prelude::*;
 use sph_contribution::Stages;
-use sph_core::{Access, Evolved, Field, Scalar, Stage, StepError, Vect, fields, plugin, stage};
+use sph_core::{Access, Evolved, Stage, StepError, Vect, fields, plugin, stage};
 use sph_neighbours::{
     Around, Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, Values, WallPoints,
-    WallSet, World, add_scaled, dot, minus, pair_sum, pair_term, walk_into,
+    World, add_scaled, pair_sum, pair_term, walk_into,
 };
 
-use crate::colagrossi_landrini::volumes;
+use crate::contract::volumes;
+use crate::divergence::{Divergence, FilledVolume, KERNEL_SUM};
 use crate::{Compressed, Diffused, Formulation, FormulationEntry};
-
-/// d_a = 1/γ_a Σ_b θ_b V_b w_ab: how full the support is.
-pub const KERNEL_SUM: Field<Scalar> = Field::new("kernel_sum", "1", "Σ θ V w / γ");
 
 /// d ln V/dt = D{u}, ρ_a = Σ m_b w_ab / Σ V_b w_ab over the particle's own phase, with
 /// D_a{u} = −1/(γ_a d_a) [Σ_b θ_b V_b u_ab·∇w_ab − Σ_s u_as·∇γ_as],
@@ -51,7 +49,7 @@ impl<const D: usize> Formulation<D> for Grenier {
         Box::new(FilledPressure)
     }
     fn divergence(&self) -> Box<dyn Interaction<D>> {
-        Box::new(FilledDivergence)
+        Divergence::boxed(FilledVolume)
     }
     fn is_scaled(&self) -> bool {
         false
@@ -119,20 +117,6 @@ struct BoundPressure<'a, const D: usize> {
     points: &'a WallPoints<D>,
 }
 
-struct FilledDivergence;
-
-#[pair_term(FilledDivergence, "Grenier divergence")]
-struct BoundDivergence<'a, const D: usize> {
-    #[both(fields::VOLUME)]
-    volume: &'a [f64],
-    #[both(KERNEL_SUM)]
-    kernel_sum: &'a [f64],
-    #[both(fields::VELOCITY)]
-    velocity: &'a [Vect<D>],
-    #[value(&world.walls)]
-    walls: &'a WallSet<D>,
-}
-
 #[pair_sum]
 impl<const D: usize> BoundPressure<'_, D> {
     /// p/d.
@@ -158,29 +142,5 @@ impl<const D: usize> BoundPressure<'_, D> {
             sum -= contact.gradient * ((own + contact.pressure) * inverse);
         }
         rates.acceleration -= sum * (self.volume[i] / self.mass[i] * at.inverse_renormalisation);
-    }
-}
-
-#[pair_sum]
-impl<const D: usize> BoundDivergence<'_, D> {
-    fn own<L: Lane>(&self, all: Particles) -> [L; D] {
-        all.vectors(self.velocity)
-    }
-    fn pair<L: Lane>(&self, own: &[L; D], j: usize, pair: &LanePair<D, L>, sum: &mut L) {
-        let apart = dot(&minus(own, &self.velocity[j]), &pair.separation);
-        *sum -= L::splat(self.volume[j]) * apart * pair.factor;
-    }
-
-    fn finish(&self, mut sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
-        let i = at.particle;
-        let (velocity, points) = (self.velocity[i], &self.walls.points);
-        for (v, pair) in at.wall.pairs() {
-            let apart = (velocity - points.velocity[v]).dot(&pair.separation);
-            sum -= points.share[v] * points.volume[v] * apart * pair.factor;
-        }
-        for contact in at.contacts {
-            sum += (velocity - self.walls.elements.velocity_at(&contact)).dot(&contact.gradient);
-        }
-        rates.scalar += sum * (1.0 / self.kernel_sum[i]) * at.inverse_renormalisation;
     }
 }

@@ -6,7 +6,7 @@ use sph_neighbours::{Interaction, World, kernel_sums};
 
 use crate::divergence::{Divergence, OwnVolume, SumVolume};
 use crate::gradient::{PressureGradient, SquaredVolumes};
-use crate::{Diffused, Formulation, FormulationEntry};
+use crate::{Compressed, Diffused, Formulation, FormulationEntry};
 use sph_contribution::Stages;
 
 /// Density from volumes, ρ_a = (K_a + m_a Σ_b θ_b w_ab)/γ_a, with the skew-adjoint gradient
@@ -31,6 +31,9 @@ impl<const D: usize> Formulation<D> for HuAdams {
             },
             per_density: |_, _, gamma| gamma,
         }
+    }
+    fn compressed(&self) -> Option<Compressed> {
+        None
     }
     fn stages(&self) -> Stages<D> {
         vec![Box::new(density_sum())]

@@ -3,8 +3,8 @@
 use sph_contribution::{Contribution, Limiter, Offer, Refusal, Setting, bound};
 use sph_core::{Access, Field, Scalar, Stage, Vect, fields, plugin, stage};
 use sph_neighbours::{
-    Around, Elements, Lane, LanePair, Neighbourhood, PairSum, Particles, Rates, Values, WallPoints,
-    World, add_scaled, dot, lattice_sum, minus, pair_sum, pair_term, unlike, walk_into,
+    Around, Elements, Lane, LanePair, Neighbourhood, Pair, PairSum, Particles, Rates, Values,
+    WallPoints, World, add_scaled, dot, lattice_sum, minus, pair_sum, pair_term, unlike, walk_into,
 };
 
 use crate::{InterfaceEntry, offer_interface};
@@ -73,33 +73,22 @@ struct Damping {
 /// With the present speed in its place the step would be 1.2 times as long, and single particles of air fast enough to fail.
 fn damping_limit<const D: usize>(friction: InterfaceFriction, fastest: f64) -> impl Limiter<D> {
     let formula = "interface friction: dt <= 1/rate at which a light particle is stopped";
-    bound(
-        "interface friction",
-        formula,
-        None,
-        move |world: &World<D>| {
-            let sum = lattice_sum(world, |pair| {
-                -pair.factor * pair.separation[0].powi(2) / pair.distance2
-            });
-            let cell = world.spacing.powi(D as i32);
-            let strength = friction.strength + friction.shocks;
-            Ok(1.0 / (2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell))
-        },
-    )
+    let dt = move |world: &World<D>| {
+        let along = |pair: &Pair<D>| -pair.factor * pair.separation[0].powi(2) / pair.distance2;
+        let sum = lattice_sum(world, along);
+        let cell = world.spacing.powi(D as i32);
+        let strength = friction.strength + friction.shocks;
+        Ok(1.0 / (2.0 * strength * world.kernel.smoothing_length() * fastest * sum * cell))
+    };
+    bound("interface friction", formula, None, dt)
 }
 
 #[pair_term(Damping, "artificial viscosity between phases")]
 struct BoundInterfaceFriction<'a, const D: usize> {
-    #[value(self.friction.strength)]
-    strength: f64,
-    #[value(self.friction.shocks)]
-    shocks: f64,
+    #[value(self)]
+    term: &'a Damping,
     #[value(world.kernel.smoothing_length())]
     length: f64,
-    #[value(&self.sound)]
-    sound: &'a [f64],
-    #[value(&self.wall_density)]
-    wall_density: &'a [f64],
     #[value(&world.walls.points)]
     points: &'a WallPoints<D>,
     #[value(&world.walls.elements)]
@@ -131,7 +120,7 @@ impl<const D: usize> BoundInterfaceFriction<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let [sound, wall_density] = all.each(|i| {
             let phase = self.phase[i] as usize;
-            [self.sound[phase], self.wall_density[phase]]
+            [self.term.sound[phase], self.term.wall_density[phase]]
         });
         Own {
             phase: all.phases(Some(self.phase)),
@@ -152,19 +141,19 @@ impl<const D: usize> BoundInterfaceFriction<'_, D> {
         if !zero.any_less(counts) {
             return;
         }
-        let sound = L::splat(0.5) * (own.sound + L::splat(self.sound[phase as usize]));
+        let sound = L::splat(0.5) * (own.sound + L::splat(self.term.sound[phase as usize]));
         let mass = L::splat(self.mass[j]) / (own.density + L::splat(self.density[j]));
         let relative = dot(&minus(&own.velocity, &self.velocity[j]), &pair.separation);
         let rate = relative / pair.distance2.max(L::splat(f64::MIN_POSITIVE));
         let other = L::splat(self.dispersed_fraction[j]);
         let dispersed_fraction =
             (own.dispersed_fraction - other).where_positive(own.dispersed_fraction, other);
-        let steady = L::splat(self.strength) * dispersed_fraction * sound;
+        let steady = L::splat(self.term.friction.strength) * dispersed_fraction * sound;
         let steady = unlike.where_positive(steady, zero);
         let closing = -(rate * L::splat(self.length));
         let closing = closing.where_positive(closing, zero);
         let closing = (closing - sound).where_positive(sound, closing);
-        let signal = steady + L::splat(self.shocks) * closing;
+        let signal = steady + L::splat(self.term.friction.shocks) * closing;
         let weight = counts.where_positive(signal * rate * pair.factor, zero);
         add_scaled(sum, &pair.separation.map(|r| r * weight), mass);
     }
@@ -196,8 +185,9 @@ impl<const D: usize> BoundInterfaceFriction<'_, D> {
 
     /// v, for a particle and a wall that part at a speed.
     fn signal(&self, own: &Own<D, f64>, parting: f64) -> f64 {
-        let steady = self.strength * own.dispersed_fraction * own.sound;
-        steady + self.shocks * (-parting).clamp(0.0, own.sound)
+        let InterfaceFriction { strength, shocks } = self.term.friction;
+        let steady = strength * own.dispersed_fraction * own.sound;
+        steady + shocks * (-parting).clamp(0.0, own.sound)
     }
 }
 

@@ -1,11 +1,11 @@
 //! Density between particles of several phases, and the action of its pressure.
 //!
 //! * [`Formulation`] is a kind of plugin, the definition of the density, and its pressure gradient: [`HuAdams`],
-//!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`]. [`Dilatation`] is the work of those that integrate continuity.
+//!   [`ColagrossiLandrini`], [`Grenier`], [`Krimi`].
 //! * [`InterfaceEntry`] is a kind of plugin, a force where phases meet: [`SurfaceTension`], [`GrenierInterface`],
 //!   [`MicroMixing`], [`InterfaceFriction`].
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
-//! * [`PressureStage`] applies the equations of state.
+//! * [`equations_of_state`] is the stage that applies them.
 //! * [`SurfaceEntry`] is a kind of plugin, the definition of free surfaces: [`ConeTest`], [`Renormalised`].
 //! * [`AcousticDamper`] takes sound away.
 //! * [`damping`]: decay of velocities, everywhere or in sponges.
@@ -44,9 +44,8 @@ pub use colagrossi_landrini::{ColagrossiLandrini, Continuity, Krimi};
 pub use contact_angle::{ContactAngle, FILM};
 pub use contract::{
     Acting, Compressed, Diffused, Formulation, FormulationEntry, InterfaceEntry, PressureEntry,
-    PressureScheme, PressureStage, offer_interface,
+    PressureScheme, equations_of_state, offer_interface,
 };
-pub use contribution::Dilatation;
 pub use divergence::{DensityWeighted, Divergence, DivergenceWeight, NeighbourVolume, OwnVolume};
 pub use gradient::{
     BetweenParticles, PairPressure, PairState, PressureGradient, SquaredVolumes, SumOfPressures,

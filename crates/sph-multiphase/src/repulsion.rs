@@ -6,6 +6,7 @@ use sph_neighbours::{
     Lane, LanePair, Neighbourhood, Particles, Rates, add_scaled, pair_sum, pair_term, unlike,
 };
 
+use crate::gradient::{PairPressure, PairState};
 use crate::{InterfaceEntry, offer_interface};
 
 /// ρ_a a = −ε Σ_{b of other phases} V_b (|p_a| + |p_b|) ∇w_ab.
@@ -28,11 +29,11 @@ pub struct GrenierInterface {
     pub strength: f64,
 }
 
-impl Repulsion for GrenierInterface {
+impl PairPressure for GrenierInterface {
     const NAME: &'static str = "Grenier interface force";
     #[inline(always)]
-    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L {
-        volume * there_volume * (pressure.abs() + there.abs())
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
+        here.volume * there.volume * (here.pressure.abs() + there.pressure.abs())
     }
 }
 
@@ -63,11 +64,12 @@ pub struct MicroMixing {
     pub strength: f64,
 }
 
-impl Repulsion for MicroMixing {
+impl PairPressure for MicroMixing {
     const NAME: &'static str = "micro-mixing force";
     #[inline(always)]
-    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L {
-        pressure.abs() * volume * volume + there.abs() * there_volume * there_volume
+    fn pair<L: Lane>(self, here: PairState<L>, there: PairState<L>) -> L {
+        let other = there.pressure.abs() * there.volume * there.volume;
+        here.pressure.abs() * here.volume * here.volume + other
     }
 }
 
@@ -77,19 +79,13 @@ impl<const D: usize> Contribution<D> for MicroMixing {
     }
 }
 
-/// The weight P_ab of m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab.
-trait Repulsion: Copy + Send + Sync + 'static {
-    const NAME: &'static str;
-    /// P_ab = P_ba ≥ 0 from pressures and volumes here and there, Pa m^2d.
-    fn weight<L: Lane>(self, pressure: L, volume: L, there: L, there_volume: L) -> L;
-}
+/// m_a a = −ε Σ_{b of other phases} P_ab ∇w_ab with P_ab ≥ 0 and ε.
+struct Repelling<P>(P, f64);
 
-struct Repelling<R>(R, f64);
-
-#[pair_term(Repelling<R>, R::NAME)]
-struct BoundRepulsion<'a, R: Repulsion> {
+#[pair_term(Repelling<P>, P::NAME)]
+struct BoundRepulsion<'a, P: PairPressure> {
     #[value(self.0)]
-    weight: R,
+    weight: P,
     #[value(self.1)]
     strength: f64,
     #[both(fields::PRESSURE)]
@@ -103,23 +99,25 @@ struct BoundRepulsion<'a, R: Repulsion> {
 }
 
 #[pair_sum]
-impl<const D: usize, R: Repulsion> BoundRepulsion<'_, R> {
-    /// Pressure, volume, phase.
-    fn own<L: Lane>(&self, all: Particles) -> [L; 3] {
+impl<const D: usize, P: PairPressure> BoundRepulsion<'_, P> {
+    /// State and phase.
+    fn own<L: Lane>(&self, all: Particles) -> (PairState<L>, L) {
         let (pressure, volume) = (all.numbers(self.pressure), all.numbers(self.volume));
-        [pressure, volume, all.phases(Some(self.phase))]
+        let state = PairState::new(pressure, volume, L::splat(0.0));
+        (state, all.phases(Some(self.phase)))
     }
 
-    fn pair<L: Lane>(&self, own: &[L; 3], j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
-        let [pressure, volume, phase] = *own;
+    fn pair<L: Lane>(&self, own: &Self::Own<L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
+        let (here, phase) = *own;
         let unlike = unlike(phase, self.phase[j]);
         let zero = L::splat(0.0);
         // Most pairs are of one phase.
         if !zero.any_less(unlike) {
             return;
         }
-        let there = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
-        let weight = self.weight.weight(pressure, volume, there.0, there.1) * pair.factor;
+        let (pressure, volume) = (L::splat(self.pressure[j]), L::splat(self.volume[j]));
+        let there = PairState::new(pressure, volume, zero);
+        let weight = self.weight.pair(here, there) * pair.factor;
         add_scaled(sum, &pair.separation, unlike.where_positive(weight, zero));
     }
 

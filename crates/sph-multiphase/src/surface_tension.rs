@@ -90,12 +90,11 @@ fn colour_gradient<const D: usize>() -> impl Stage<World<D>> {
         let mut gradients = world.free.take(COLOUR_GRADIENT)?;
         let (phase, volume) = world.free.all((fields::PHASE, fields::VOLUME))?;
         let gradient = |around: &Around<'_, D>| {
-            let (row, i) = (&around.rows.free, around.rows.particle);
+            let i = around.rows.particle;
             let mut sum = Vect::<D>::zeros();
-            for (k, &j) in row.index.iter().enumerate() {
-                let j = j as usize;
+            for (j, pair) in around.rows.free.pairs() {
                 if phase[j] != phase[i] {
-                    sum += row.separation[k] * (volume[j] * volume[j] * row.factor[k]);
+                    sum += pair.separation * (volume[j] * volume[j] * pair.factor);
                 }
             }
             sum * (around.rows.inverse_renormalisation / volume[i])

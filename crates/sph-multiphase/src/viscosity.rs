@@ -2,7 +2,7 @@
 //!
 //! * [`ViscousOperator`] is a kind of plugin: [`Morris`], [`MonaghanGingold`], [`EspanolRevenga`], [`HuAdamsViscosity`],
 //!   [`KrimiViscosity`]. [`PairFriction`] is what most of them are made of, [`Coupling`] the same as rows of a matrix.
-//! * [`ImplicitViscosity`] takes friction from the end of the step, [`ViscousLimit`] bounds the step where it does not.
+//! * [`ImplicitViscosity`] takes friction from the end of the step, [`viscous_limit`] bounds the step where it does not.
 //! * Eddy viscosities ([`EddyViscosityEntry`]) are added to the viscosity of the laws; none is in this crate.
 
 mod body_response;
@@ -17,8 +17,8 @@ mod solves;
 mod viscosity_source;
 
 pub use contract::{
-    BoundCoupling, Coupling, CouplingRow, EddyViscosityEntry, Viscosity, ViscousLimit,
-    ViscousOperator, ViscousOperatorEntry, WithCoupling,
+    BoundCoupling, Coupling, CouplingRow, EddyViscosityEntry, Viscosity, ViscousOperator,
+    ViscousOperatorEntry, WithCoupling, viscous_limit,
 };
 pub use friction::{Across, Choice, OnLattice, PairFriction, ViscousTerm, WallTerm};
 pub use friction_operator::FrictionOperator;

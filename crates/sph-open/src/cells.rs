@@ -165,16 +165,12 @@ mod tests {
 
     /// Two squares and a triangle in a plane, as walls are cut.
     fn strip() -> WallSet<3> {
-        let corner = |x: f64, y: f64| Vect::<3>::new(x, y, 0.5);
-        let position = vec![
-            corner(0.0, 0.0),
-            corner(1.0, 0.0),
-            corner(2.0, 0.0),
-            corner(0.0, 1.0),
-            corner(1.0, 1.0),
-            corner(2.0, 1.0),
-            corner(3.0, 0.0),
+        let rows = [
+            [0.0, 1.0, 2.0].map(|x| [x, 0.0]),
+            [0.0, 1.0, 2.0].map(|x| [x, 1.0]),
         ];
+        let corners = rows.into_iter().flatten().chain([[3.0, 0.0]]);
+        let position: Vec<_> = corners.map(|[x, y]| Vect::<3>::new(x, y, 0.5)).collect();
         let corners = vec![[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 6, 5]];
         let middle = |c: &[u32; 3]| c.iter().map(|c| position[*c as usize]).sum::<Vect<3>>() / 3.0;
         WallSet {

@@ -103,16 +103,29 @@ pub struct OpenSetting<'a> {
     pub dimension: usize,
 }
 
-/// The conditions of a moment.
+/// The conditions of a moment before a face.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<const D: usize> {
+pub struct Moment<'a, const D: usize> {
+    /// Elements of the face.
+    pub places: &'a [FaceElement<D>],
+    /// The fluid in front of each.
+    pub inside: &'a [FluidMean<D>],
     /// Time, s.
     pub time: f64,
     /// Gravity, m/s².
     pub gravity: Vect<D>,
 }
 
-impl<const D: usize> Moment<D> {
+impl<const D: usize> Moment<'_, D> {
+    /// Values of every element, in their order.
+    pub fn each(
+        &self,
+        values: impl Fn(&FaceElement<D>, &FluidMean<D>) -> FaceValues<D>,
+    ) -> Vec<FaceValues<D>> {
+        let all = self.places.iter().zip(self.inside);
+        all.map(|(place, inside)| values(place, inside)).collect()
+    }
+
     /// Height of a place against gravity, m.
     pub fn height(&self, place: &Vect<D>) -> f64 {
         match self.gravity.norm() {
@@ -167,7 +180,9 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
         Entering::default()
     }
     /// True if fluid can leave by it where more comes in elsewhere.
-    fn lets_out(&self) -> bool;
+    fn lets_out(&self) -> bool {
+        true
+    }
     /// True if rows that pass are kept even by slow pressures, as those that stay are. This makes a barrier of some per
     /// cent of the pressure for a current, and lets waves of the surface pass that are thrown back otherwise.
     fn keeps_rows_even(&self) -> bool {
@@ -183,12 +198,7 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
         None
     }
     /// Velocity and pressure of every element, in their order.
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>>;
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>>;
 }
 
 contract!(

@@ -18,10 +18,13 @@ use crate::{Entering, OPEN_FLUX, OpenBoundary, OpenRefusal};
 /// Parts of the run at the ends of which the course of a law is checked.
 const COURSE: usize = 4096;
 
-/// The open faces of a scene as a contribution.
+/// The open faces of a scene as a contribution, and their work within a step.
+#[derive(Clone)]
 pub struct OpenBoundaries<const D: usize> {
     faces: SharedFaces<D>,
+    /// True if densities are sums, which change with particles that come and go.
     summed: bool,
+    phases: Vec<String>,
 }
 
 /// Opens faces in the walls of a scene: the treatment of all of them, and the passage of mass.
@@ -62,7 +65,12 @@ pub fn open<const D: usize>(
         walls,
         faces: faces.clone(),
     };
-    (Box::new(walls), OpenBoundaries { faces, summed })
+    let boundaries = OpenBoundaries {
+        faces,
+        summed,
+        phases: phases.to_vec(),
+    };
+    (Box::new(walls), boundaries)
 }
 
 impl<const D: usize> OpenBoundaries<D> {
@@ -70,11 +78,9 @@ impl<const D: usize> OpenBoundaries<D> {
     pub fn in_front(&self, distance: f64) -> Vec<(String, Vect<D>)> {
         let faces = lock(&self.faces);
         let all = faces.places.iter().zip(&faces.face_of);
-        let place = |(place, face): (&crate::FaceElement<D>, &usize)| {
-            let x = place.centre + place.normal * distance;
-            (faces.faces[*face].name.clone(), x)
-        };
-        all.map(place).collect()
+        let names = |face: &usize| faces.faces[*face].name.clone();
+        all.map(|(place, face)| (names(face), place.centre + place.normal * distance))
+            .collect()
     }
 
     /// Refusals of laws for the elements of their faces, each with the name of the face.
@@ -140,28 +146,15 @@ impl<const D: usize> Contribution<D> for OpenBoundaries<D> {
                 "open faces let mass through once per step: take `[integrator.symplectic-euler]`";
             return Err(Refusal::at_key("integrator", "", why));
         }
-        let passing = FacePassing {
-            faces: self.faces.clone(),
-            summed: self.summed,
-            phases: setting.phases.to_vec(),
-        };
-        offer.hook(passing.clone());
-        offer.gate(passing);
+        offer.hook(self.clone());
+        offer.gate(self.clone());
         Ok(())
     }
 }
 
 const NAME: &str = "open boundaries";
 
-#[derive(Clone)]
-pub(crate) struct FacePassing<const D: usize> {
-    pub faces: SharedFaces<D>,
-    /// True if densities are sums, which change with particles that come and go.
-    pub summed: bool,
-    pub phases: Vec<String>,
-}
-
-impl<const D: usize> FacePassing<D> {
+impl<const D: usize> OpenBoundaries<D> {
     fn columns(&self) -> Access {
         let access = Access::none()
             .both((fields::POSITION, fields::VOLUME))
@@ -179,7 +172,7 @@ impl<const D: usize> FacePassing<D> {
     }
 }
 
-impl<const D: usize> StepHook<D> for FacePassing<D> {
+impl<const D: usize> StepHook<D> for OpenBoundaries<D> {
     fn name(&self) -> String {
         NAME.into()
     }
@@ -217,7 +210,7 @@ impl<const D: usize> StepHook<D> for FacePassing<D> {
     }
 }
 
-impl<const D: usize> Gate<D> for FacePassing<D> {
+impl<const D: usize> Gate<D> for OpenBoundaries<D> {
     fn name(&self) -> String {
         NAME.into()
     }

@@ -104,17 +104,16 @@ fn unevenness<const D: usize>(world: &World<D>, volume: &[f64], around: &Around<
     let own = volume[rows.particle];
     let mut filling = own * world.kernel.value_at_zero();
     let mut sum = Vect::<D>::zeros();
-    for (k, &j) in rows.free.index.iter().enumerate() {
-        let other = volume[j as usize];
-        filling += other * around.free[k];
-        sum += rows.free.separation[k] * ((own * own + other * other) * rows.free.factor[k]);
+    for ((j, pair), w) in rows.free.pairs().zip(around.free) {
+        let other = volume[j];
+        filling += other * w;
+        sum += pair.separation * ((own * own + other * other) * pair.factor);
     }
     let points = &world.walls.points;
-    for (k, &v) in rows.wall.index.iter().enumerate() {
-        let (other, share) = (points.volume[v as usize], points.share[v as usize]);
-        filling += share * other * around.wall[k];
-        let weight = share * (own * own + other * other) * rows.wall.factor[k];
-        sum += rows.wall.separation[k] * weight;
+    for ((v, pair), w) in rows.wall.pairs().zip(around.wall) {
+        let (other, share) = (points.volume[v], points.share[v]);
+        filling += share * other * w;
+        sum += pair.separation * (share * (own * own + other * other) * pair.factor);
     }
     for contact in rows.contacts {
         let other = contact.volume;

@@ -34,16 +34,17 @@ impl<const D: usize> Faces<D> {
             self.lacking[k] = as_share(seen.lacks);
         }
         self.looked = looked;
-        let moment = Moment {
-            time: world.time,
-            gravity: world.gravity,
-        };
         for f in 0..self.faces.len() {
             let face = &self.faces[f];
             let own = face.elements.clone();
-            let places = &self.places[own.clone()];
-            let outside = (face.law).outside(places, &self.inside[own.clone()], &moment);
-            self.asked[f] = face.law.asked(places, world.time);
+            let moment = Moment {
+                places: &self.places[own.clone()],
+                inside: &self.inside[own.clone()],
+                time: world.time,
+                gravity: world.gravity,
+            };
+            let outside = face.law.outside(&moment);
+            self.asked[f] = face.law.asked(moment.places, world.time);
             self.outside[own.clone()].copy_from_slice(&outside);
             let Some(asked) = self.asked[f] else { continue };
             for k in own.clone() {

@@ -39,10 +39,8 @@ impl<const D: usize> Faces<D> {
         let limit = world.kernel.support_radius().powi(2);
         let passes: Vec<_> = (0..self.elements.len()).map(|k| self.through(k)).collect();
         let one = |i: usize, constant: &mut f64, last: &mut f64| {
-            let (contacts, ports) = (
-                world.walls.contacts.of_particle(i),
-                world.lists.wall.candidates(i),
-            );
+            let contacts = world.walls.contacts.of_particle(i);
+            let ports = world.lists.wall.candidates(i);
             if contacts.is_empty() && ports.is_empty() && *last == 0.0 {
                 return;
             }
@@ -56,9 +54,8 @@ impl<const D: usize> Faces<D> {
             let mut beside = 0.0;
             for &v in ports {
                 let k = v as usize - first;
-                let apart = world
-                    .domain
-                    .nearest_image(position[i] - self.places[k].centre);
+                let apart = position[i] - self.places[k].centre;
+                let apart = world.domain.nearest_image(apart);
                 let r2 = apart.norm_squared();
                 if r2 >= limit {
                     continue;

@@ -40,15 +40,16 @@ impl<const D: usize> FaceValues<D> {
         velocity: Vect<D>,
         impedance: f64,
     ) -> Self {
+        let values = |velocity, pressure| FaceValues {
+            velocity,
+            pressure,
+            imposed: false,
+            share: None,
+        };
         let n = place.normal;
         let within = inside.velocity.dot(&n);
         if !inside.wet {
-            return FaceValues {
-                velocity: inside.velocity - n * within.max(0.0),
-                pressure: 0.0,
-                imposed: false,
-                share: None,
-            };
+            return values(inside.velocity - n * within.max(0.0), 0.0);
         }
         let (z, aim) = (inside.impedance, velocity.dot(&n));
         // Written so that nothing is rounded differently where ζ = 0.
@@ -58,12 +59,7 @@ impl<const D: usize> FaceValues<D> {
             true => inside.velocity - n * within,
             false => velocity - n * aim,
         };
-        FaceValues {
-            velocity: along + n * normal,
-            pressure: pressure - impedance * (normal - aim),
-            imposed: false,
-            share: None,
-        }
+        values(along + n * normal, pressure - impedance * (normal - aim))
     }
 }
 

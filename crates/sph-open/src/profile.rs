@@ -138,19 +138,13 @@ pub(crate) fn check_table(key: &str, table: &[[f64; 2]]) -> Result<(), OpenRefus
 pub(crate) type FactorTable = Option<Vec<[f64; 2]>>;
 
 pub(crate) fn factor(course: &FactorTable, time: f64) -> f64 {
-    course
-        .as_ref()
-        .map_or(1.0, |table| interpolated(table, time))
+    course.as_deref().map_or(1.0, |t| interpolated(t, time))
 }
 
-/// The least and the largest of a value over its course.
-pub(crate) fn range(course: &FactorTable, value: f64) -> [f64; 2] {
+/// True if a value is below 0 somewhere on its course.
+pub(crate) fn turns_negative(course: &FactorTable, value: f64) -> bool {
     let table = course.as_deref().unwrap_or(&[[0.0, 1.0]]);
-    let all = || table.iter().map(|[_, factor]| value * factor);
-    [
-        all().fold(f64::INFINITY, f64::min),
-        all().fold(f64::NEG_INFINITY, f64::max),
-    ]
+    table.iter().any(|[_, factor]| value * factor < 0.0)
 }
 
 /// Refuses a course that does not last as long as the run.

@@ -17,7 +17,6 @@ pub use maker::WaveMaker;
 pub use paddle::Paddle;
 pub use reflection::ReflectionProbe;
 pub use separation::{Amplitude, Separated, separated};
-pub use spectrum::Jonswap;
 pub use standing_wave::StandingWave;
 pub use superposition::{Component, Waves};
 pub use wave_face::WaveFace;

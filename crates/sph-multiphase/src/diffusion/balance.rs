@@ -113,13 +113,12 @@ pub fn linear_exact<const D: usize>(
     // Columns of the matrix, and its right side.
     let mut matrix = [Vect::<D>::zeros(); D];
     let mut sum = Vect::<D>::zeros();
-    for (k, &j) in row.index.iter().enumerate() {
-        let j = j as usize;
+    for (j, pair) in row.pairs() {
         if let Some(rise) = rise(j) {
-            let slope = row.separation[k] * (volume[j] * row.factor[k]);
+            let slope = pair.separation * (volume[j] * pair.factor);
             sum += slope * rise;
-            for (c, column) in matrix.iter_mut().enumerate() {
-                *column -= slope * row.separation[k][c];
+            for (column, along) in matrix.iter_mut().zip(&pair.separation) {
+                *column -= slope * *along;
             }
         }
     }

@@ -22,25 +22,25 @@ contribution_kind!(
 
 /// The smoother of a scene that names none.
 fn smoother(flow: &FlowNature, named: Option<&str>) -> Option<SuitedPlugin> {
-    let (name, parameters, reason) = match (named, flow.law, flow.confined) {
-        (Some(_), ..) | (None, LawNature::Elastic, _) => return None,
-        (None, LawNature::Soil, _) => (
+    let suited = |name, parameters, reason| {
+        Some(SuitedPlugin {
+            name,
+            parameters,
+            reason,
+        })
+    };
+    let pressures = "brezzi-pitkaranta";
+    let noisy = "impacts at a free surface are noisy with less";
+    match (named, flow.law, flow.confined) {
+        (Some(_), ..) | (None, LawNature::Elastic, _) => None,
+        (None, LawNature::Soil, _) => suited(
             "delta-sph",
             "",
             "soils that diffuse pressure run out too far",
         ),
-        (None, LawNature::Fluid, true) => ("brezzi-pitkaranta", "", "no surface is free"),
-        (None, LawNature::Fluid, false) => (
-            "brezzi-pitkaranta",
-            "strength = 0.4",
-            "impacts at a free surface are noisy with less",
-        ),
-    };
-    Some(SuitedPlugin {
-        name,
-        parameters,
-        reason,
-    })
+        (None, LawNature::Fluid, true) => suited(pressures, "", "no surface is free"),
+        (None, LawNature::Fluid, false) => suited(pressures, "strength = 0.4", noisy),
+    }
 }
 
 /// The shifting of a scene that names none: particles keep to free surfaces, layers under gravity and rows of a channel
@@ -103,13 +103,9 @@ fn diffusion_limit<const D: usize>(strength: f64, laws: &Laws) -> impl Limiter<D
     let fastest = fastest(laws);
     let formula = format!("smoother: dt <= {STABLE} / (2 {strength} h c ΣV|F|)");
     let remedy = "a smaller `strength` of the smoother lengthens the step";
-    bound(
-        "smoother",
-        formula,
-        Some(remedy),
-        move |world: &World<D>| {
-            let sum = 2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor);
-            Ok(STABLE / (strength * world.kernel.smoothing_length() * fastest * sum))
-        },
-    )
+    let dt = move |world: &World<D>| {
+        let sum = 2.0 * world.spacing.powi(D as i32) * lattice_sum(world, |pair| -pair.factor);
+        Ok(STABLE / (strength * world.kernel.smoothing_length() * fastest * sum))
+    };
+    bound("smoother", formula, Some(remedy), dt)
 }

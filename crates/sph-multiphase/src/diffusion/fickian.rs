@@ -8,8 +8,7 @@ use sph_contribution::{Contribution, Offer, Refusal, Setting};
 
 use crate::diffusion::ShiftingEntry;
 use crate::diffusion::evenness::{Evenness, ShiftLimit, evenness, held_normals};
-use crate::diffusion::shift_transport::ShiftTransport;
-use crate::diffusion::shift_transport::ShiftedSum;
+use crate::diffusion::shift_transport::{ShiftTransport, ShiftedSum};
 
 /// Particles move, besides their velocity, down the gradient of their concentration,
 /// s_a = −B h c 1/γ_a [Σ_b θ_b V_b (1 + R (w_ab/w(δr))ⁿ) ∇w_ab − Σ_s (C_a + R (w(2d_as)/w(δr))ⁿ) ∇γ_as],

@@ -2,14 +2,14 @@
 
 use nalgebra::Vector6;
 use sph_core::{Access, Declares, Pool, Stage, StepError, Vect, fields};
-use sph_neighbours::{FreeBody, Interaction, World, interactions, lattice_sum};
+use sph_neighbours::{FreeBody, World, interactions, lattice_sum};
 use sph_rheology::state::BoundState;
 
 use crate::linear::{
     Assembly, Automatic, Entries, LinearSolver, LowRank, Matrix, Operator, ParticleMatrix,
 };
 use crate::pressure::system::{ClusterCoefficients, Couplings, Part};
-use crate::{Acting, FREE_SURFACE, Place, PressureStage};
+use crate::{Acting, FREE_SURFACE, Place};
 
 const NAME: &str = "implicit pressure";
 
@@ -18,10 +18,7 @@ const TORN: f64 = 0.5;
 
 /// Applies the equations of state, and solves for the pressure of the end of the step.
 pub(crate) struct SolvePressure<const D: usize> {
-    state: PressureStage,
-    /// The rate at which the density falls.
-    dilatation: [Box<dyn Interaction<D>>; 1],
-    surfaces: bool,
+    acting: Acting<D>,
     /// The lowest pressure of every law, Pa.
     floors: Vec<f64>,
     solver: Automatic,
@@ -49,14 +46,15 @@ impl<const D: usize> Declares for SolvePressure<D> {
         NAME.into()
     }
     fn access(&self) -> Access {
-        let access = self.state.access().and(self.dilatation[0].access());
+        let access = self.acting.state.access();
+        let access = access.and(self.acting.dilatation.access());
         let access = access
             .both((fields::POSITION, fields::VOLUME, fields::DENSITY))
             // A solve starts from the pressure of the step before.
             .remembers(fields::PRESSURE)
             .where_there((fields::DENSITY_CONSTANT, fields::RENORMALISATION))
             .where_there(fields::PHASE);
-        match self.surfaces {
+        match self.acting.surfaces {
             true => access.here(FREE_SURFACE),
             false => access,
         }
@@ -69,9 +67,9 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
         let x = &mut self.scratch.pressure;
         x.clear();
         x.extend(before.map(|p| Vect::from([*p])));
-        self.state.run(world)?;
+        self.acting.state.run(world)?;
         // Later a resumed run would meet a check that an uninterrupted one did not.
-        if !self.surfaces && world.time <= 0.0 {
+        if !self.acting.surfaces && world.time <= 0.0 {
             refuse_surfaces(world)?;
         }
         match world.dt > 0.0 && world.dt.is_finite() {
@@ -92,10 +90,8 @@ impl<const D: usize> SolvePressure<D> {
             pressure[0]
         };
         SolvePressure {
-            floors: acting.state.laws.iter().map(|law| floor(&**law)).collect(),
-            state: acting.state,
-            dilatation: [acting.dilatation],
-            surfaces: acting.surfaces,
+            floors: acting.laws.iter().map(|law| floor(&**law)).collect(),
+            acting,
             solver,
             scratch: Scratch::default(),
         }
@@ -153,7 +149,8 @@ impl<const D: usize> SolvePressure<D> {
         rate.clear();
         rate.resize(n, 0.0);
         unused.resize(n, Vect::zeros());
-        interactions(world, &self.dilatation, unused, Some(rate))
+        let terms = std::slice::from_ref(&self.acting.dilatation);
+        interactions(world, terms, unused, Some(rate))
     }
 
     fn fill_parts(&mut self, world: &World<D>) -> Result<(), StepError> {
@@ -162,13 +159,13 @@ impl<const D: usize> SolvePressure<D> {
         let pressure = free.get(fields::PRESSURE)?;
         let gamma = free.get(fields::RENORMALISATION).ok();
         let phase = free.get(fields::PHASE).ok();
-        let surface = self.surfaces.then(|| free.get(FREE_SURFACE));
+        let surface = self.acting.surfaces.then(|| free.get(FREE_SURFACE));
         let surface = surface.transpose()?;
         let row = world.gravity.norm() * world.spacing;
         let Scratch { parts, rate, .. } = &mut self.scratch;
         parts.clear();
         parts.extend((0..volume.len()).map(|i| {
-            let law = &self.state.laws[phase.map_or(0, |p| p[i] as usize)];
+            let law = &self.acting.laws[phase.map_or(0, |p| p[i] as usize)];
             let size = volume[i] * gamma.map_or(1.0, |g| g[i]);
             let stiffness = density[i] * law.sound_speed(density[i]).powi(2);
             let compliance = size / stiffness;
@@ -196,10 +193,8 @@ impl<const D: usize> SolvePressure<D> {
 
 /// Refuses supports that lack fluid where free surfaces are not defined: their pressure would float.
 fn refuse_surfaces<const D: usize>(world: &World<D>) -> Result<(), StepError> {
-    let (Ok(constant), Ok(density)) = (
-        world.free.get(fields::DENSITY_CONSTANT),
-        world.free.get(fields::DENSITY),
-    ) else {
+    let columns = (fields::DENSITY_CONSTANT, fields::DENSITY);
+    let Ok((constant, density)) = world.free.all(columns) else {
         return Ok(());
     };
     let lacks = |(k, rho): &(&f64, &f64)| **k > OPEN * **rho;

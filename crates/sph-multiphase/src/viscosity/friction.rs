@@ -25,6 +25,8 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     const EVEN: bool = true;
     /// Its [stiffness](crate::viscosity::ViscousOperator::stiffness).
     const STIFFNESS: f64;
+    /// True if viscosities of pairs are weighed by density, (ρ_a η_b + ρ_b η_a)/(ρ_a + ρ_b); else their mean is the source's.
+    const BY_DENSITY: bool = false;
     /// True if it [leaves rotations](crate::viscosity::ViscousOperator::leaves_rotations) alone.
     const LEAVES_ROTATIONS: bool = false;
     /// The choices of the scene.
@@ -61,17 +63,6 @@ pub trait PairFriction<const D: usize>: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn shear(self, volume: f64, there: f64, along: &Vect<D>, pair: &Pair<D>) -> f64 {
         self.shears(volume, there, &splat(along), &pair.into())
-    }
-    /// η̄ of pairs with one neighbour; that of the source.
-    #[inline(always)]
-    fn means<L: Lane>(
-        self,
-        viscosity: &BoundViscosity<'_>,
-        here: &OwnViscosity<L>,
-        j: usize,
-        _: [L; 2],
-    ) -> L {
-        viscosity.means(here, j)
     }
     /// Factor of the literal friction on an element, from the volumes of particle and element.
     #[inline(always)]
@@ -191,10 +182,8 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         pair: &LanePair<D, L>,
         [force, discrete]: &mut [[L; D]; 2],
     ) {
-        let (volume, density) = (L::splat(self.volume[j]), L::splat(self.density[j]));
-        let densities = [own.density, density];
-        let friction = self.friction;
-        let mean = friction.means(&self.viscosity, &own.viscosity, j, densities);
+        let (friction, volume) = (self.friction, L::splat(self.volume[j]));
+        let mean = self.means(&own.viscosity, own.density, j);
         let relative = minus(&own.velocity, &self.velocity[j]);
         let of_pair = friction.forces(own.volume, volume, &relative, pair);
         add_scaled(force, &of_pair, mean);
@@ -206,30 +195,34 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
 
     fn finish(&self, sums: [[f64; D]; 2], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         let here = self.own_values(at.particle);
-        let [mut force, mut discrete] = sums.map(Vect::from);
-        // 2 Σ η u_t/δr |∇γ_as|, and Σ ∇γ_as.
-        let (mut flux, mut gradient) = (Vect::zeros(), Vect::zeros());
+        let [mut force, discrete] = sums.map(Vect::from);
+        // 2 Σ η u_t/δr |∇γ_as|.
+        let mut flux = Vect::zeros();
         if self.rubs {
             for (v, pair) in at.wall.pairs() {
-                let (share, volume) = (self.walls.points.share[v], self.walls.points.volume[v]);
+                let volume = self.walls.points.volume[v];
                 let rubbing = self.rubbing(v, &pair);
                 let relative = here.velocity - self.walls.points.viscous_velocity[v];
                 let of_pair = self.friction.force(here.volume, volume, &relative, &pair);
                 force += of_pair * (rubbing * here.viscosity.eta);
-                let shear = self.friction.shear(here.volume, volume, &here.along, &pair);
-                discrete += pair.separation * (share * shear);
             }
             for contact in at.contacts {
                 let normal = &self.walls.elements.normal[contact.element as usize];
                 let relative = here.velocity - self.walls.elements.velocity_at(&contact);
                 flux += (relative - normal * relative.dot(normal)) * self.weight(&here, &contact);
-                if !self.is_open(contact.element) {
-                    gradient += contact.gradient;
-                }
             }
         }
-        let total = force - flux * self.correction(&here, discrete, gradient);
+        let total = force - flux * self.correction(&here, discrete, at);
         let scale = self.scale * at.inverse_renormalisation * here.specific_volume;
         rates.acceleration += total * scale;
+    }
+
+    /// η̄ of pairs with one neighbour.
+    fn means<L: Lane>(&self, here: &OwnViscosity<L>, density: L, j: usize) -> L {
+        if !F::BY_DENSITY {
+            return self.viscosity.means(here, j);
+        }
+        let (there, eta) = (L::splat(self.density[j]), L::splat(self.viscosity.at(j)));
+        (density * eta + there * here.eta) / (density + there)
     }
 }

@@ -4,7 +4,7 @@ use sph_core::{parameters, plugin};
 use sph_neighbours::Lane;
 
 use crate::viscosity::friction::{Across, Choice, OnLattice, PairFriction, WallTerm};
-use crate::viscosity::{BoundViscosity, OwnViscosity, ViscousOperatorEntry, Within};
+use crate::viscosity::{ViscousOperatorEntry, Within};
 
 /// L_a = 2/γ_a Σ_b θ_b V_b η̄_ab u_ab F_ab − 2κ_a/γ_a Σ_s η_a u_t,as/δr_as |∇γ_as|.
 ///
@@ -189,6 +189,7 @@ pub enum Strength {
 impl<const D: usize> PairFriction<D> for KrimiViscosity {
     const NAME: &'static str = "Krimi viscosity";
     const STIFFNESS: f64 = 1.65;
+    const BY_DENSITY: bool = true;
     fn choice(self) -> Choice {
         Choice {
             wall_term: self.wall_term,
@@ -209,16 +210,6 @@ impl<const D: usize> PairFriction<D> for KrimiViscosity {
         };
         let even = L::splat(strength) * (volume + there * there / volume) * factor;
         [even, even / distance2.max(L::splat(f64::MIN_POSITIVE))]
-    }
-    #[inline(always)]
-    fn means<L: Lane>(
-        self,
-        viscosity: &BoundViscosity<'_>,
-        here: &OwnViscosity<L>,
-        j: usize,
-        rho: [L; 2],
-    ) -> L {
-        (rho[0] * L::splat(viscosity.at(j)) + rho[1] * here.eta) / (rho[0] + rho[1])
     }
     #[inline(always)]
     fn at_element(self, _: f64, _: f64) -> f64 {

@@ -3,7 +3,7 @@
 //! The walls are made here, not by a wall plugin: the numbers check the operators alone.
 
 use sph_core::{Role, Vect, fields};
-use sph_kernels::Sampler;
+use sph_kernels::{Sampler, gauss_points};
 use sph_neighbours::{ContactBlock, Domain, WallSet, World};
 
 use crate::world::world;
@@ -13,28 +13,8 @@ pub const SPACING: f64 = 0.5;
 pub const PERIOD: f64 = 8.0;
 const COLUMNS: usize = 16;
 
-/// Eight-point Gauss on [a, b], cut into `parts`.
-fn integral(a: f64, b: f64, parts: usize, f: impl Fn(f64) -> f64) -> f64 {
-    const NODES: [f64; 4] = [
-        0.183_434_642_495_649_8,
-        0.525_532_409_916_329,
-        0.796_666_477_413_626_7,
-        0.960_289_856_497_536_3,
-    ];
-    const WEIGHTS: [f64; 4] = [
-        0.362_683_783_378_362,
-        0.313_706_645_877_887_3,
-        0.222_381_034_453_374_47,
-        0.101_228_536_290_376_26,
-    ];
-    let step = (b - a) / parts as f64;
-    let part = |k: usize| {
-        let middle = a + (k as f64 + 0.5) * step;
-        let pair =
-            |(x, w): (&f64, &f64)| w * (f(middle - 0.5 * step * x) + f(middle + 0.5 * step * x));
-        0.5 * step * NODES.iter().zip(&WEIGHTS).map(pair).sum::<f64>()
-    };
-    (0..parts).map(part).sum()
+fn integral(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
+    gauss_points(from, to, 16).map(|[x, w]| w * f(x)).sum()
 }
 
 /// ∫ w over a stretch [from, to] of a line at a distance from the particle, 1/m.
@@ -47,7 +27,7 @@ fn stretch(kernel: &dyn Sampler, distance: f64, from: f64, to: f64) -> f64 {
     if from >= to {
         return 0.0;
     }
-    integral(from, to, 8, |s| kernel.at(s.hypot(distance)).0)
+    integral(from, to, |s| kernel.at(s.hypot(distance)).0)
 }
 
 /// γ over an infinite flat wall: 1 − ∫ ∇γ from here to the end of the support.
@@ -56,13 +36,13 @@ pub fn gamma(kernel: &dyn Sampler, distance: f64) -> f64 {
     if distance >= end {
         return 1.0;
     }
-    1.0 - integral(distance, end, 8, |d| stretch(kernel, d, -end, end))
+    1.0 - integral(distance, end, |d| stretch(kernel, d, -end, end))
 }
 
 /// A channel of a height: rows at ½ m, 1 m, … below the upper wall, or `rows` without one.
 pub struct Channel {
     pub world: World<2>,
-    top: Option<f64>,
+    pub top: Option<f64>,
 }
 
 impl Channel {
@@ -87,73 +67,71 @@ impl Channel {
         };
         let mut world = world::<2>(positions, domain, SPACING, 2.0);
         world.free.add(fields::RENORMALISATION, Role::State);
-        let mut channel = Channel { world, top };
-        channel.draw();
-        channel.world.rebuild_lists().unwrap();
-        channel.measure();
-        channel
+        world.walls = walls(top);
+        world.rebuild_lists().unwrap();
+        measure(&mut world, top);
+        Channel { world, top }
     }
+}
 
-    /// Vertices and segments of all walls.
-    fn draw(&mut self) {
-        let mut walls = WallSet::default();
-        let lines = [(0.0, 1.0)].into_iter().chain(self.top.map(|y| (y, -1.0)));
-        for (y, up) in lines {
-            for i in 0..COLUMNS {
-                let x = i as f64 * SPACING;
-                let points = &mut walls.points;
-                points.position.push(Vect::<2>::new(x, y));
-                points.velocity.push(Vect::zeros());
-                points.viscous_velocity.push(Vect::zeros());
-                points.share.push(0.5);
-                points.volume.push(SPACING * SPACING);
-                points.pressure.push(0.0);
-                points.friction_factor.push(1.0);
-                points.wall.push(0);
-                let elements = &mut walls.elements;
-                elements.centre.push(Vect::<2>::new(x + 0.5 * SPACING, y));
-                elements.normal.push(Vect::<2>::new(0.0, up));
-                elements.velocity.push(Vect::zeros());
-                elements.measure.push(SPACING);
-                elements.volume.push(SPACING * SPACING);
-                elements.pressure.push(0.0);
-                elements.friction_factor.push(1.0);
-                elements.wall.push(0);
-                let first = elements.corners.len() as u32;
-                elements.corners.push([first, first]);
-            }
+/// Vertices and segments of all walls.
+fn walls(top: Option<f64>) -> WallSet<2> {
+    let mut walls = WallSet::default();
+    let lines = [(0.0, 1.0)].into_iter().chain(top.map(|y| (y, -1.0)));
+    for (y, up) in lines {
+        for i in 0..COLUMNS {
+            let x = i as f64 * SPACING;
+            let points = &mut walls.points;
+            points.position.push(Vect::<2>::new(x, y));
+            points.velocity.push(Vect::zeros());
+            points.viscous_velocity.push(Vect::zeros());
+            points.share.push(0.5);
+            points.volume.push(SPACING * SPACING);
+            points.pressure.push(0.0);
+            points.friction_factor.push(1.0);
+            points.wall.push(0);
+            let elements = &mut walls.elements;
+            elements.centre.push(Vect::<2>::new(x + 0.5 * SPACING, y));
+            elements.normal.push(Vect::<2>::new(0.0, up));
+            elements.velocity.push(Vect::zeros());
+            elements.measure.push(SPACING);
+            elements.volume.push(SPACING * SPACING);
+            elements.pressure.push(0.0);
+            elements.friction_factor.push(1.0);
+            elements.wall.push(0);
+            let first = elements.corners.len() as u32;
+            elements.corners.push([first, first]);
         }
-        self.world.walls = walls;
     }
+    walls
+}
 
-    /// γ and the shares of ∇γ at the present positions.
-    pub fn measure(&mut self) {
-        let world = &mut self.world;
-        let mut gammas = Vec::new();
-        let contacts = &mut world.walls.contacts;
-        let mut blocks = contacts.take_blocks(world.free.len());
-        blocks.clear();
-        let elements = &world.walls.elements;
-        for (p, x) in world.free.get(fields::POSITION).unwrap().iter().enumerate() {
-            let kernel = &*world.kernel;
-            let above = self.top.map_or(1.0, |top| gamma(kernel, top - x[1]));
-            gammas.push(gamma(kernel, x[1]) + above - 1.0);
-            let mut block = ContactBlock::default();
-            for (s, centre) in elements.centre.iter().enumerate() {
-                let apart = world.domain.nearest_image(x - centre);
-                let distance = apart.dot(&elements.normal[s]);
-                let half = 0.5 * SPACING;
-                let share = stretch(kernel, distance, apart[0] - half, apart[0] + half);
-                let share = std::iter::once((s as u32, share.max(0.0)));
-                block.push(elements.normal[s], distance, share);
-            }
-            contacts.place(p as u32, p, 0..block.planes());
-            blocks.push(block);
+/// γ and the shares of ∇γ at the present positions, with the height of the upper wall.
+pub fn measure(world: &mut World<2>, top: Option<f64>) {
+    let mut gammas = Vec::new();
+    let contacts = &mut world.walls.contacts;
+    let mut blocks = contacts.take_blocks(world.free.len());
+    blocks.clear();
+    let elements = &world.walls.elements;
+    for (p, x) in world.free.get(fields::POSITION).unwrap().iter().enumerate() {
+        let kernel = &*world.kernel;
+        let above = top.map_or(1.0, |top| gamma(kernel, top - x[1]));
+        gammas.push(gamma(kernel, x[1]) + above - 1.0);
+        let mut block = ContactBlock::default();
+        for (s, centre) in elements.centre.iter().enumerate() {
+            let apart = world.domain.nearest_image(x - centre);
+            let distance = apart.dot(&elements.normal[s]);
+            let half = 0.5 * SPACING;
+            let share = stretch(kernel, distance, apart[0] - half, apart[0] + half);
+            let share = std::iter::once((s as u32, share.max(0.0)));
+            block.push(elements.normal[s], distance, share);
         }
-        contacts.put_blocks(blocks);
-        *world.free.get_mut(fields::RENORMALISATION).unwrap() = gammas;
-        world.walls.update_contacts();
+        contacts.place(p as u32, p, 0..block.planes());
+        blocks.push(block);
     }
+    contacts.put_blocks(blocks);
+    *world.free.get_mut(fields::RENORMALISATION).unwrap() = gammas;
+    world.walls.update_contacts();
 }
 
 #[test]
@@ -168,7 +146,6 @@ fn the_quadrature_gives_the_printed_gamma_and_its_gradient() {
     ];
     for (distance, gradient, value) in table {
         let found = stretch(&*kernel, distance, -2.0, 2.0);
-        // The table has nine digits, the quadrature seven so near to the wall.
         assert!((found - gradient).abs() < 1e-7, "{distance}: ∇γ {found}");
         let found = gamma(&*kernel, distance);
         assert!((found - value).abs() < 1e-7, "{distance}: γ {found}");

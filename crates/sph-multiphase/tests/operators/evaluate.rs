@@ -31,17 +31,13 @@ pub fn pressure<const D: usize>() -> Box<dyn Interaction<D>> {
 
 /// Morris's operator, not scaled on the lattice: the numbers of the theory are of this one.
 pub fn viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
-    let operator = Morris(Choice {
-        on_lattice: OnLattice::Literal,
-        ..Choice::default()
-    });
-    operator.term(Viscosity::Uniform(eta))
+    morris(WallTerm::Corrected, eta)
 }
 
-/// Morris's operator with the wall term as printed.
-pub fn literal_viscosity<const D: usize>(eta: f64) -> Box<dyn Interaction<D>> {
+/// The same with a wall term.
+pub fn morris<const D: usize>(wall_term: WallTerm, eta: f64) -> Box<dyn Interaction<D>> {
     let operator = Morris(Choice {
-        wall_term: WallTerm::Literal,
+        wall_term,
         on_lattice: OnLattice::Literal,
         ..Choice::default()
     });

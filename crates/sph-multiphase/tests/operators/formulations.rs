@@ -1,12 +1,12 @@
 //! What every formulation promises: adjoint operators, momentum, constants left alone.
 
-use sph_core::{Access, Role, Vect, fields};
+use sph_core::{Role, Vect, fields};
 use sph_multiphase::{ColagrossiLandrini, Continuity, Formulation, Grenier, HuAdams, Krimi};
 use sph_neighbours::World;
 
 use crate::conservation::{cloud, imbalance};
 use crate::evaluate::rates;
-use crate::world::{disorder, set, set_velocity, world};
+use crate::world::{at, disorder, lattice, open, set, set_velocity, world};
 
 fn all<const D: usize>() -> Vec<(&'static str, Box<dyn Formulation<D>>)> {
     let consistent = Krimi {
@@ -26,7 +26,7 @@ fn all<const D: usize>() -> Vec<(&'static str, Box<dyn Formulation<D>>)> {
 /// The columns a formulation's stages write, and what they write there.
 fn prepare<const D: usize>(world: &mut World<D>, formulation: &dyn Formulation<D>) {
     for mut stage in formulation.stages() {
-        let access: Access = stage.access();
+        let access = stage.access();
         for field in access.writes.iter().chain(&access.reads()) {
             world.free.add_any(*field, Role::Derived);
         }
@@ -41,18 +41,14 @@ fn divergence<const D: usize>(world: &World<D>, formulation: &dyn Formulation<D>
 /// (Σ V p D{u} + Σ V u·G{p}) over its terms' size, with −V G{p} = m a.
 fn adjointness<const D: usize>(world: &World<D>, formulation: &dyn Formulation<D>) -> f64 {
     let free = &world.free;
-    let volume = free.get(fields::VOLUME).unwrap();
-    let pressure = free.get(fields::PRESSURE).unwrap();
-    let mass = free.get(fields::MASS).unwrap();
-    let velocity = free.get(fields::VELOCITY).unwrap();
+    let (volume, pressure) = free.all((fields::VOLUME, fields::PRESSURE)).unwrap();
+    let (mass, velocity) = free.all((fields::MASS, fields::VELOCITY)).unwrap();
     let force = rates(world, &vec![formulation.pressure_term()]).0;
     let rate = divergence(world, formulation);
     let (mut sum, mut size) = (0.0, 0.0);
     for i in 0..volume.len() {
-        let (compressed, work) = (
-            volume[i] * pressure[i] * rate[i],
-            mass[i] * force[i].dot(&velocity[i]),
-        );
+        let compressed = volume[i] * pressure[i] * rate[i];
+        let work = mass[i] * force[i].dot(&velocity[i]);
         sum += compressed - work;
         size += compressed.abs() + work.abs();
     }
@@ -97,9 +93,8 @@ fn pressure_conserves_momentum_to_1e_13_and_angular_momentum_to_1e_12() {
         assert!(sum < 1e-13, "{name}: Σ m a / Σ m |a| = {sum:e}");
     }
     // A patch in the open: no pair across a period.
-    let open = sph_neighbours::Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0));
     for (name, formulation) in all::<2>() {
-        let mut patch = world(disorder::<2>(20, 0.3, 7), open.clone(), 0.05, 2.0);
+        let mut patch = world(disorder::<2>(20, 0.3, 7), open(), 0.05, 2.0);
         set(&mut patch, fields::PRESSURE, |x| {
             3.0 + x[0] - 2.0 * x[1] * x[0]
         });
@@ -128,19 +123,13 @@ fn constant_velocity_has_exactly_no_divergence() {
 /// u = (x, 2y) on a lattice: div u = 3; −∇p/ρ of p = x: −1.
 #[test]
 fn linear_fields_on_a_lattice_are_met_to_1_per_cent() {
-    let open = sph_neighbours::Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0));
     for (name, formulation) in all::<2>() {
-        let mut grid = world(
-            crate::world::lattice::<2>(15),
-            open.clone(),
-            1.0 / 15.0,
-            2.0,
-        );
+        let mut grid = world(lattice::<2>(15), open(), 1.0 / 15.0, 2.0);
         set_velocity(&mut grid, |x| Vect::<2>::new(x[0], 2.0 * x[1]));
         set(&mut grid, fields::PRESSURE, |x| x[0]);
         prepare(&mut grid, &*formulation);
         // A density sum on the open lattice: the middle is full.
-        let middle = crate::world::at(&grid, Vect::repeat(0.5));
+        let middle = at(&grid, Vect::repeat(0.5));
         let rate = divergence(&grid, &*formulation)[middle];
         let force = rates(&grid, &vec![formulation.pressure_term()]).0[middle];
         assert!((rate / 3.0 - 1.0).abs() < 0.01, "{name}: div = {rate}");

@@ -12,23 +12,17 @@ pub fn world<const D: usize>(
     ratio: f64,
 ) -> World<D> {
     let mut free = Store::new(positions.len());
-    for field in [
-        fields::POSITION,
-        fields::VELOCITY,
-        fields::ACCELERATION,
-        fields::MEAN_ACCELERATION,
-    ] {
-        free.add(field, Role::State);
-    }
-    for field in [
-        fields::MASS,
-        fields::DENSITY,
-        fields::VOLUME,
-        fields::PRESSURE,
-        fields::DENSITY_CONSTANT,
-    ] {
-        free.add(field, Role::State);
-    }
+    let vectors = [fields::POSITION, fields::VELOCITY, fields::ACCELERATION];
+    let scalars = [fields::MASS, fields::DENSITY, fields::VOLUME];
+    vectors
+        .iter()
+        .for_each(|field| free.add(*field, Role::State));
+    scalars
+        .iter()
+        .for_each(|field| free.add(*field, Role::State));
+    free.add(fields::MEAN_ACCELERATION, Role::State);
+    free.add(fields::PRESSURE, Role::State);
+    free.add(fields::DENSITY_CONSTANT, Role::State);
     let cell = spacing.powi(D as i32);
     *free.get_mut(fields::POSITION).unwrap() = positions;
     free.get_mut(fields::MASS).unwrap().fill(cell);
@@ -64,11 +58,24 @@ pub fn periodic<const D: usize>() -> Domain<D> {
     }
 }
 
+/// A domain without periods, far larger than the unit box.
+pub fn open<const D: usize>() -> Domain<D> {
+    Domain::open(Vect::repeat(-9.0), Vect::repeat(9.0))
+}
+
 /// n^D particles at the middles of the cells of the unit box.
 pub fn lattice<const D: usize>(n: usize) -> Vec<Vect<D>> {
     let index = |k: usize, axis: usize| (k / n.pow(axis as u32)) % n;
     let place = |k: usize| Vect::from_fn(|axis, _| (index(k, axis) as f64 + 0.5) / n as f64);
     (0..n.pow(D as u32)).map(place).collect()
+}
+
+/// 1 and −1 in turns at the places of a lattice of n² particles.
+pub fn chequer(n: usize) -> impl Fn(&Vect<2>) -> f64 {
+    move |x| {
+        let index = [0, 1].map(|k| (x[k] * n as f64).floor() as i64);
+        1.0 - 2.0 * ((index[0] + index[1]).rem_euclid(2)) as f64
+    }
 }
 
 /// A lattice shaken by up to `share` of its spacing along every axis.
@@ -92,11 +99,29 @@ pub fn set<const D: usize>(
     *world.free.get_mut(field).unwrap() = values;
 }
 
+/// Sets the phase from the position.
+pub fn set_phase<const D: usize>(world: &mut World<D>, of: impl Fn(&Vect<D>) -> u32) {
+    world.free.add(fields::PHASE, Role::State);
+    let positions = world.free.get(fields::POSITION).unwrap();
+    let phases = positions.iter().map(of).collect();
+    *world.free.get_mut(fields::PHASE).unwrap() = phases;
+}
+
 /// Sets the velocity from the position.
 pub fn set_velocity<const D: usize>(world: &mut World<D>, mut of: impl FnMut(&Vect<D>) -> Vect<D>) {
     let positions = world.free.get(fields::POSITION).unwrap();
     let values: Vec<Vect<D>> = positions.iter().map(&mut of).collect();
     *world.free.get_mut(fields::VELOCITY).unwrap() = values;
+}
+
+/// The largest length.
+pub fn longest<const D: usize>(vectors: &[Vect<D>]) -> f64 {
+    vectors.iter().map(|v| v.norm()).fold(0.0, f64::max)
+}
+
+/// The largest size.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
 /// The particle nearest to a place.

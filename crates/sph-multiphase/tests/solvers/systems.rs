@@ -93,11 +93,7 @@ pub fn dense<const D: usize>(matrix: &Matrix<D>, right: &[Vect<D>]) -> Vec<Vect<
 }
 
 /// All that are shipped, with every preconditioner.
-pub fn solvers<const D: usize>() -> Vec<(String, Box<dyn LinearSolver<D>>)>
-where
-    Automatic: LinearSolver<D>,
-    ConjugateGradient: LinearSolver<D>,
-{
+pub fn solvers<const D: usize>() -> Vec<(String, Box<dyn LinearSolver<D>>)> {
     let mut all: Vec<(String, Box<dyn LinearSolver<D>>)> = vec![
         ("cholesky".into(), Box::new(Cholesky::default())),
         ("automatic".into(), Box::new(Automatic::to(1e-11))),

@@ -5,8 +5,7 @@ use sph_core::plugin;
 use crate::laws::imposed_pressure;
 use crate::profile::{FactorTable, check_course, factor};
 use crate::{
-    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
-    OpenRefusal, OpenSetting, refuse,
+    Entering, FaceValues, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, refuse,
 };
 
 /// A given pressure over the whole face; the velocity follows, u = u_i + (p − p_i)/ρc.
@@ -39,19 +38,9 @@ impl<const D: usize> OpenBoundary<D> for Pressure {
     fn entering(&self) -> Entering {
         Entering::in_phase(&self.phase)
     }
-    fn lets_out(&self) -> bool {
-        true
-    }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let now = self.pressure * factor(&self.over_time, moment.time);
-        let each = places.iter().zip(inside);
-        each.map(|(place, inside)| imposed_pressure(place, inside, now))
-            .collect()
+        moment.each(|place, inside| imposed_pressure(place, inside, now))
     }
 }
 
@@ -89,18 +78,10 @@ impl<const D: usize> OpenBoundary<D> for Level {
     fn entering(&self) -> Entering {
         Entering::in_phase(&self.phase)
     }
-    fn lets_out(&self) -> bool {
-        true
-    }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let level = self.level * factor(&self.over_time, moment.time);
         let g = moment.gravity.norm();
-        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
+        moment.each(|place, inside| {
             let depth = level - moment.height(&place.centre);
             let still = inside.density * g * depth;
             let mut outside = imposed_pressure(place, inside, still.max(0.0));
@@ -109,8 +90,7 @@ impl<const D: usize> OpenBoundary<D> for Level {
                 outside.velocity = inside.velocity - n * inside.velocity.dot(&n);
             }
             outside
-        };
-        places.iter().zip(inside).map(one).collect()
+        })
     }
 }
 
@@ -158,21 +138,13 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
             (velocity, _) => setting.check_speed("velocity", velocity.unwrap_or(0.0)),
         }
     }
-    fn lets_out(&self) -> bool {
-        true
-    }
     fn memory(&self) -> Option<f64> {
         self.memory
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let g = moment.gravity.norm();
-        let [present, mean] = of_the_face(places, inside);
-        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
+        let [present, mean] = of_the_face(moment);
+        moment.each(|place, inside| {
             let z = inside.impedance;
             let depth = |level: f64| (level - moment.height(&place.centre)).max(0.0);
             let far = self.pressure + self.level.map_or(0.0, |l| inside.density * g * depth(l));
@@ -184,8 +156,7 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
                 }
             };
             imposed_pressure(place, inside, pressure)
-        };
-        places.iter().zip(inside).map(one).collect()
+        })
     }
 }
 
@@ -193,9 +164,10 @@ impl<const D: usize> OpenBoundary<D> for Outflow {
 ///
 /// Sound in front of a face is a plane wave there. What differs from element to element is the profile of the flow, and which
 /// particles have just been taken into the mean: times ρc that would be pressure.
-fn of_the_face<const D: usize>(places: &[FaceElement<D>], inside: &[FluidMean<D>]) -> [f64; 2] {
+fn of_the_face<const D: usize>(moment: &Moment<'_, D>) -> [f64; 2] {
     let (mut sums, mut whole) = ([0.0; 2], 0.0);
-    for (place, inside) in places.iter().zip(inside).filter(|(_, inside)| inside.wet) {
+    let all = moment.places.iter().zip(moment.inside);
+    for (place, inside) in all.filter(|(_, inside)| inside.wet) {
         let velocities = [inside.velocity, inside.mean];
         for (sum, velocity) in sums.iter_mut().zip(velocities) {
             *sum += place.measure * velocity.dot(&place.normal);

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use sph_core::plugin;
 
 use crate::laws::imposed_velocity;
-use crate::profile::{FactorTable, check_course, factor, range};
+use crate::profile::{FactorTable, check_course, factor, turns_negative};
 use crate::{
-    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
-    OpenRefusal, OpenSetting, Profile,
+    Entering, FaceElement, FaceValues, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal,
+    OpenSetting, Profile,
 };
 
 /// Fluid passes with a given velocity along the normal of the face, for any fluid in front of it.
@@ -63,22 +63,16 @@ impl<const D: usize> OpenBoundary<D> for VelocityInlet {
         }
     }
     fn lets_out(&self) -> bool {
-        range(&self.over_time, self.velocity)[0] < 0.0
+        turns_negative(&self.over_time, self.velocity)
     }
     fn asked(&self, places: &[FaceElement<D>], time: f64) -> Option<f64> {
         let now = self.velocity * factor(&self.over_time, time);
         let one = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
         Some(now * places.iter().map(one).sum::<f64>())
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        _: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let now = self.velocity * factor(&self.over_time, moment.time);
-        let one = |place: &FaceElement<D>| imposed_velocity(place, now * self.profile.at(place));
-        places.iter().map(one).collect()
+        moment.each(|place, _| imposed_velocity(place, now * self.profile.at(place)))
     }
 }
 
@@ -125,32 +119,25 @@ impl<const D: usize> OpenBoundary<D> for FlowRate {
         }
     }
     fn lets_out(&self) -> bool {
-        range(&self.over_time, self.rate)[0] < 0.0
+        turns_negative(&self.over_time, self.rate)
     }
     fn asked(&self, _: &[FaceElement<D>], time: f64) -> Option<f64> {
         Some(self.rate * factor(&self.over_time, time))
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let now = self.rate * factor(&self.over_time, moment.time);
-        let each = || places.iter().zip(inside);
+        let places = moment.places;
         let weight = |place: &FaceElement<D>| self.profile.at(place) * place.measure;
-        let wetted = each().filter(|(_, i)| i.wet);
+        let wetted = places.iter().zip(moment.inside).filter(|(_, i)| i.wet);
         let wet: f64 = wetted.map(|(p, i)| weight(p) * i.filled).sum();
         // Through less than an element there would be a jet.
         let wet = wet.max(places.iter().map(weight).sum::<f64>() / places.len() as f64);
-        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| match inside.wet && wet > 0.0
-        {
+        moment.each(|place, inside| match inside.wet && wet > 0.0 {
             true => FaceValues {
                 share: Some(inside.filled),
                 ..imposed_velocity(place, now / wet * self.profile.at(place))
             },
             false => FaceValues::dry(),
-        };
-        each().map(one).collect()
+        })
     }
 }

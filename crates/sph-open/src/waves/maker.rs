@@ -70,13 +70,7 @@ pub struct WaveMaker<const D: usize> {
     #[serde(skip)]
     motion: RigidMotion<D>,
     #[serde(skip)]
-    feedback: Option<Feedback<D>>,
-}
-
-#[derive(Clone, Debug)]
-struct Feedback<const D: usize> {
-    face: Face<D>,
-    absorption: Absorption,
+    feedback: Option<(Face<D>, Absorption)>,
 }
 
 type MoverResult<T> = Result<T, MoverRefusal>;
@@ -108,10 +102,10 @@ impl<const D: usize> WaveMaker<D> {
         let given = Vect::<D>::from_column_slice(along);
         match given.try_normalize(0.0) {
             Some(unit) if unit[D - 1] == 0.0 && unit.iter().all(|x| x.is_finite()) => Ok(unit),
-            _ => refuse(
-                "along",
-                "waves run horizontally: the last number is 0, another is not",
-            ),
+            _ => {
+                let why = "waves run horizontally: the last number is 0, another is not";
+                refuse("along", why)
+            }
         }
     }
 
@@ -132,19 +126,12 @@ impl<const D: usize> WaveMaker<D> {
     fn second_order(&self, paddle: Paddle, depth: f64, waves: &[Component]) -> MoverResult<bool> {
         let fits = matches!((paddle, self.waves), (Paddle::Piston, Waves::Regular(_)));
         let unfit = "second order is for regular waves of a piston: take 1";
-        match waves.is_empty() {
-            true => Ok(false),
-            false => second_order(waves, depth, self.order, (fits, unfit)),
-        }
+        second_order(waves, depth, self.order, (fits, unfit))
     }
 
     /// The motion at the still level, m.
     fn strokes(&self, paddle: Paddle, [depth, gravity]: [f64; 2]) -> MoverResult<Vec<SinePart>> {
-        let waves = self.waves.components(depth, gravity, 0.0);
-        let Some(first) = waves.first() else {
-            let why = "there is no wave in the `band`: `repeat` is too short";
-            return refuse("waves", why);
-        };
+        let waves = self.waves.components(depth, gravity, 0.0)?;
         let part = |w: &Component| SinePart {
             amplitude: w.amplitude / paddle.transfer(w.wavenumber, depth),
             frequency: w.frequency,
@@ -152,6 +139,7 @@ impl<const D: usize> WaveMaker<D> {
         };
         let mut parts: Vec<SinePart> = waves.iter().map(part).collect();
         if self.second_order(paddle, depth, &waves)? {
+            let first = waves[0];
             let kd = first.wavenumber * depth;
             let height = 2.0 * first.amplitude;
             let bound = 3.0 * kd.cosh() / kd.sinh().powi(3);
@@ -172,7 +160,7 @@ impl<const D: usize> WaveMaker<D> {
         water: [f64; 2],
         ramp: f64,
         setting: &MoverSetting<'_, D>,
-    ) -> MoverResult<Option<Feedback<D>>> {
+    ) -> MoverResult<Option<(Face<D>, Absorption)>> {
         if !self.absorb {
             return Ok(None);
         }
@@ -182,14 +170,12 @@ impl<const D: usize> WaveMaker<D> {
             return refuse("absorb", "the paddle has no breadth across the waves");
         };
         let [_, period] = self.waves.size();
-        let waves = self.waves.components(water[0], water[1], 0.0);
+        let waves = self.waves.components(water[0], water[1], 0.0)?;
         let second = self.second_order(paddle, water[0], &waves)?;
         let least = MEAN_WAY * reach / (water[0] * water[1]).sqrt();
         let timing = (ramp, period, least);
-        Ok(Some(Feedback {
-            face,
-            absorption: Absorption::tuned(paddle, &waves, timing, second, water),
-        }))
+        let absorption = Absorption::tuned(paddle, &waves, timing, second, water);
+        Ok(Some((face, absorption)))
     }
 }
 
@@ -244,11 +230,11 @@ impl<const D: usize> Mover<D> for WaveMaker<D> {
         false
     }
     fn looks(&self, now: &RigidState<D>) -> Option<DepthGauge<D>> {
-        self.feedback.as_ref().map(|f| f.face.gauge(now))
+        self.feedback.as_ref().map(|(face, _)| face.gauge(now))
     }
     fn next(&self, now: &RigidState<D>, load: &Load<D>, time: f64, dt: f64) -> RigidState<D> {
         let plan = self.motion.state(time + dt);
-        let Some(Feedback { face, absorption }) = &self.feedback else {
+        let Some((face, absorption)) = &self.feedback else {
             return plan;
         };
         let besides = face.free_motion(now, &self.motion.state(time));

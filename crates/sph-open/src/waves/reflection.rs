@@ -116,18 +116,17 @@ impl ReflectionProbe {
 
     fn take(&self, time: f64, levels: Vec<f64>) -> Result<(), StepError> {
         let mut sums = self.sums.lock().map_err(|_| refused("a thread failed"))?;
-        let numbers: Vec<usize> = self.numbers().collect();
-        let count = 2 * numbers.len() * self.at.len();
+        let count = 2 * self.numbers().count() * self.at.len();
         sums.integrals.resize(count, 0.0);
         let row = [vec![time], levels].concat();
         if let Some(last) = sums.last.replace(row.clone()) {
-            self.add(&mut sums.integrals, &numbers, &last, &row);
+            self.add(&mut sums.integrals, &last, &row);
         }
         Ok(())
     }
 
     /// The part of the integrals between two rows that lies in the window, the levels straight between them.
-    fn add(&self, integrals: &mut [f64], numbers: &[usize], last: &[f64], row: &[f64]) {
+    fn add(&self, integrals: &mut [f64], last: &[f64], row: &[f64]) {
         let (t0, t1) = (last[0], row[0]);
         let (begin, end) = (t0.max(self.from), t1.min(self.to));
         if end <= begin {
@@ -137,12 +136,12 @@ impl ReflectionProbe {
             let share = (t - t0) / (t1 - t0);
             last[1 + gauge] + share * (row[1 + gauge] - last[1 + gauge])
         };
-        let half = 0.5 * (end - begin);
+        let (half, count) = (0.5 * (end - begin), self.numbers().count());
         for gauge in 0..self.at.len() {
             let ends = [begin, end].map(|t| (t, at(gauge, t)));
-            for (j, n) in numbers.iter().enumerate() {
-                let omega = TAU * *n as f64 / (self.to - self.from);
-                let place = 2 * (gauge * numbers.len() + j);
+            for (j, n) in self.numbers().enumerate() {
+                let omega = TAU * n as f64 / (self.to - self.from);
+                let place = 2 * (gauge * count + j);
                 for (t, level) in ends {
                     let (sine, cosine) = (omega * t).sin_cos();
                     integrals[place] += half * level * cosine;

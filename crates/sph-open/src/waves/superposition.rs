@@ -7,7 +7,7 @@ use sph_core::parameters;
 
 use crate::refuse;
 use crate::waves::dispersion::wavenumber_on;
-use crate::waves::spectrum::{Jonswap, phases};
+use crate::waves::spectrum::{jonswap, phases};
 
 /// One linear wave, η = a cos(ωt − kx + φ) with x from the paddle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,54 +150,57 @@ impl Waves {
             Waves::Irregular(_) => "waves.irregular",
             Waves::Focused(_) => "waves.focused",
         };
-        let fault = self.fault(depth, gravity, current);
-        fault.map_or(Ok(()), |why| refuse(name, why))
-    }
-
-    /// The reason that the numbers do not fit, if they do not.
-    fn fault(&self, depth: f64, gravity: f64, current: f64) -> Option<String> {
+        let refused = |why: String| refuse(name, why);
         let [height, period] = self.size();
         let positive = |x: f64| x > 0.0 && x.is_finite();
         if !positive(height) || !positive(period) {
-            return Some("heights and periods are numbers above 0".into());
+            return refused("heights and periods are numbers above 0".into());
         }
         let Some(k) = wavenumber_on(TAU / period, depth, gravity, current) else {
-            return Some(format!(
+            return refused(format!(
                 "no wave with a period of {period} s runs against a current of {:.4} m/s in water {depth:.4} m deep",
                 -current
             ));
         };
         let breaks = 0.142 * TAU / k * (k * depth).tanh();
         if height > breaks {
-            return Some(format!(
+            return refused(format!(
                 "a wave of {height:.4} m breaks: with this period and depth none is higher than {breaks:.4} m (Miche)"
             ));
         }
         let (gamma, [low, high]) = match self {
-            Waves::Regular(_) => return None,
+            Waves::Regular(_) => return Ok(()),
             Waves::Irregular(w) => (w.enhancement, w.band),
             Waves::Focused(w) => (w.enhancement, w.band),
         };
         if !(gamma >= 1.0 && gamma.is_finite()) {
-            return Some(format!("`enhancement` is at least 1, and here {gamma}"));
+            return refused(format!("`enhancement` is at least 1, and here {gamma}"));
         }
         if !(low > 0.0 && low < 1.0 && high > 1.0 && high.is_finite()) {
-            return Some("`band` has a number below 1 and one above it".into());
+            return refused("`band` has a number below 1 and one above it".into());
         }
         match self {
             Waves::Irregular(w) if !(w.repeat >= 5.0 * w.period && w.repeat.is_finite()) => {
-                Some("`repeat` is to be five periods at least".into())
+                refused("`repeat` is to be five periods at least".into())
             }
             Waves::Focused(w) if !(positive(w.at) && positive(w.time)) => {
-                Some("`at` and `time` are numbers above 0".into())
+                refused("`at` and `time` are numbers above 0".into())
             }
-            _ => None,
+            _ => Ok(()),
         }
     }
 
     /// The linear waves of which they consist, in water of a depth, m, that runs with them, or against them, at the velocity
     /// `current`, m/s. Those that no current lets run against it are left out.
-    pub fn components(&self, depth: f64, gravity: f64, current: f64) -> Vec<Component> {
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn components(
+        &self,
+        depth: f64,
+        gravity: f64,
+        current: f64,
+    ) -> Result<Vec<Component>, MoverRefusal> {
         let one = |frequency: f64, amplitude: f64, phase: f64| {
             let omega = TAU * frequency;
             Some(Component {
@@ -207,24 +210,19 @@ impl Waves {
                 phase,
             })
         };
-        let sea = |height: f64, period: f64, enhancement: f64| Jonswap {
-            height,
-            peak: 1.0 / period,
-            enhancement,
-        };
-        match self {
+        let waves = match self {
             Waves::Regular(w) => Vec::from_iter(one(1.0 / w.period, 0.5 * w.height, 0.0)),
             Waves::Irregular(w) => {
-                let sea = sea(w.height, w.period, w.enhancement);
-                let all = sea.components(1.0 / w.repeat, w.band.map(|f| f / w.period));
+                let sea = [w.height, 1.0 / w.period, w.enhancement];
+                let all = jonswap(sea, 1.0 / w.repeat, w.band.map(|f| f / w.period));
                 let both = all.into_iter().zip(phases(w.seed));
                 both.filter_map(|([f, a], phase)| one(f, a, phase))
                     .collect()
             }
             Waves::Focused(w) => {
-                let sea = sea(1.0, w.period, w.enhancement);
                 let [low, high] = w.band.map(|f| f / w.period);
-                let all = sea.components((high - low) / GROUP, [low, high]);
+                let sea = [1.0, 1.0 / w.period, w.enhancement];
+                let all = jonswap(sea, (high - low) / GROUP, [low, high]);
                 let whole: f64 = all.iter().map(|[_, a]| a * a).sum();
                 let meets = |[f, a]: [f64; 2]| {
                     let wave = one(f, w.crest * a * a / whole, 0.0)?;
@@ -235,6 +233,13 @@ impl Waves {
                 };
                 all.into_iter().filter_map(meets).collect()
             }
+        };
+        match waves.is_empty() {
+            true => refuse(
+                "waves",
+                "there is no wave in the `band`: `repeat` is too short",
+            ),
+            false => Ok(waves),
         }
     }
 }
@@ -257,7 +262,7 @@ mod tests {
     fn a_focused_group_meets_where_and_when_it_is_asked_to() {
         let waves = waves("focused = { crest = 0.08, period = 1.2, at = 3.0, time = 9.0 }");
         assert_eq!(waves.check(0.5, 9.81, 0.0), Ok(()));
-        let all = waves.components(0.5, 9.81, 0.0);
+        let all = waves.components(0.5, 9.81, 0.0).expect("waves");
         assert!((level(&all, 3.0, 9.0) - 0.08).abs() < 1e-14);
         for [x, t] in [[3.0, 9.6], [2.5, 9.0], [3.0, 3.0], [0.0, 9.0]] {
             assert!(level(&all, x, t) < 0.07, "{x} {t}");
@@ -268,7 +273,8 @@ mod tests {
     fn a_sea_repeats_itself_and_is_the_same_for_a_seed() {
         let sea = |seed: u64| {
             let sea = format!("height = 0.06, period = 1.2, repeat = 24.0, seed = {seed}");
-            waves(&format!("irregular = {{ {sea} }}")).components(0.5, 9.81, 0.0)
+            let waves = waves(&format!("irregular = {{ {sea} }}"));
+            waves.components(0.5, 9.81, 0.0).expect("waves")
         };
         let all = sea(7);
         assert_eq!(all, sea(7));

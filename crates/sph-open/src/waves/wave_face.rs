@@ -9,8 +9,7 @@ use crate::waves::dispersion::wavenumber_on;
 use crate::waves::orbits::Orbits;
 use crate::waves::superposition::{Waves, second_order};
 use crate::{
-    Entering, FaceElement, FaceValues, FluidMean, Moment, OpenBoundary, OpenBoundaryEntry,
-    OpenRefusal, OpenSetting, refuse,
+    Entering, FaceValues, Moment, OpenBoundary, OpenBoundaryEntry, OpenRefusal, OpenSetting, refuse,
 };
 
 /// Waves come in through the face on a current, and waves that come to it go out.
@@ -88,12 +87,6 @@ impl WaveFaceState {
 }
 
 impl WaveFace {
-    fn second_order(&self, orbits: &Orbits) -> Result<bool, OpenRefusal> {
-        let fits = matches!(self.waves, Some(Waves::Regular(_)));
-        let unfit = "second order is for regular waves: take 1";
-        second_order(&orbits.waves, orbits.depth, self.order, (fits, unfit))
-    }
-
     fn settled(&self, gravity: f64) -> Result<WaveFaceState, OpenRefusal> {
         if gravity.is_nan() || gravity <= 0.0 {
             return refuse("level", "waves need gravity: set `numerics.gravity`");
@@ -115,23 +108,22 @@ impl WaveFace {
         if !(period > 0.0 && period.is_finite()) {
             return refuse("period", "a time above 0 was expected");
         }
-        let mut waves = Vec::new();
-        if let Some(asked) = &self.waves {
-            asked.check(depth, gravity, self.current)?;
-            waves = asked.components(depth, gravity, self.current);
-            if waves.is_empty() {
-                let why = "there is no wave in the `band`: `repeat` is too short";
-                return refuse("waves", why);
+        let waves = match &self.waves {
+            None => Vec::new(),
+            Some(waves) => {
+                waves.check(depth, gravity, self.current)?;
+                waves.components(depth, gravity, self.current)?
             }
-        }
-        let mut orbits = Orbits {
+        };
+        let fits = matches!(self.waves, Some(Waves::Regular(_)));
+        let unfit = "second order is for regular waves: take 1";
+        let orbits = Orbits {
             depth,
             gravity,
             current: self.current,
+            second: second_order(&waves, depth, self.order, (fits, unfit))?,
             waves,
-            second: false,
         };
-        orbits.second = self.second_order(&orbits)?;
         let ramp = self.ramp.unwrap_or(2.0 * period);
         if !(ramp >= 0.0 && ramp.is_finite()) {
             return refuse("ramp", "a time from 0 on was expected");
@@ -161,26 +153,18 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
     fn entering(&self) -> Entering {
         Entering::in_phase(&self.phase)
     }
-    fn lets_out(&self) -> bool {
-        true
-    }
     fn keeps_rows_even(&self) -> bool {
         true
     }
-    fn outside(
-        &self,
-        places: &[FaceElement<D>],
-        inside: &[FluidMean<D>],
-        moment: &Moment<D>,
-    ) -> Vec<FaceValues<D>> {
+    fn outside(&self, moment: &Moment<'_, D>) -> Vec<FaceValues<D>> {
         let Some(settled) = self.settled.get() else {
-            return vec![FaceValues::dry(); places.len()];
+            return vec![FaceValues::dry(); moment.places.len()];
         };
         let orbits = &settled.orbits;
         let share = settled.share(moment.time);
         let elevation = orbits.elevation(moment.time, share);
         let up: Vect<D> = -moment.gravity / moment.gravity.norm();
-        let one = |(place, inside): (&FaceElement<D>, &FluidMean<D>)| {
+        moment.each(|place, inside| {
             let height = moment.height(&place.centre) - self.level;
             let water = orbits.at(height, elevation, moment.time, share);
             let level = place.normal - up * place.normal.dot(&up);
@@ -193,10 +177,7 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
             let tall = (side * level.norm()).max(f64::MIN_POSITIVE);
             match settled.yields {
                 true => {
-                    let (p, z) = (
-                        inside.density * water.pressure,
-                        inside.density * settled.speed,
-                    );
+                    let [p, z] = [water.pressure, settled.speed].map(|x| inside.density * x);
                     FaceValues::yielding(place, inside, p, velocity, z)
                 }
                 false => FaceValues {
@@ -205,14 +186,14 @@ impl<const D: usize> OpenBoundary<D> for WaveFace {
                     ..FaceValues::dry()
                 },
             }
-        };
-        places.iter().zip(inside).map(one).collect()
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{FaceElement, FluidMean};
 
     fn law(table: &str) -> WaveFace {
         toml::from_str(table).expect("a law")
@@ -285,10 +266,12 @@ mod tests {
                 ..FluidMean::nothing()
             };
             let moment = Moment {
+                places: &[place],
+                inside: &[inside],
                 time: 3.0,
                 gravity: Vect::<2>::new(0.0, -gravity),
             };
-            let outside = law.outside(&[place], &[inside], &moment)[0];
+            let outside = law.outside(&moment)[0];
             let p = outside.pressure - inside.pressure;
             let u = outside.velocity - inside.velocity;
             assert!(p.abs() < 1e-9 && u.norm() < 1e-12, "{height}: {p}, {u}");

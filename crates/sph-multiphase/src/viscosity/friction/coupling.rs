@@ -2,7 +2,7 @@
 
 use sph_core::{Access, StepError, Vect};
 use sph_neighbours::{
-    Cluster, Kinds, Lane, LanePair, Neighbourhood, Pair, PairNumbers, PairTerm, Particles, World,
+    Cluster, Kinds, Lane, LanePair, Neighbourhood, PairNumbers, PairTerm, Particles, World,
 };
 
 use super::{BoundFriction, OwnValues, PairFriction, ViscousTerm};
@@ -26,15 +26,6 @@ impl<const D: usize, F: PairFriction<D>> Coupling<D> for ViscousTerm<F> {
 }
 
 impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
-    /// −α and −β of a wall point times its viscosity.
-    #[inline(always)]
-    fn at_point(&self, here: &OwnValues<D>, there: f64, pair: &Pair<D>, eta: f64) -> [f64; 2] {
-        let (distance2, factor) = (pair.distance2, pair.factor);
-        let friction = self.friction;
-        let strengths = friction.strengths(here.volume, there, distance2, factor);
-        strengths.map(|s| -(s * eta))
-    }
-
     /// W and s of walls; `at_element` gives the friction on an element, and the velocity to which it draws the particle, from
     /// the normal, the velocity of the element and its friction along the wall.
     fn walls<E: Entry<D>>(
@@ -47,12 +38,23 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         let (mut wall, mut source) = (E::ZERO, Vect::zeros());
         for (v, pair) in rows.wall.pairs() {
             let rubbing = self.rubbing(v, &pair) * here.viscosity.eta;
-            let [even, along] = self.at_point(&here, self.walls.points.volume[v], &pair, rubbing);
+            let there = self.walls.points.volume[v];
+            let factors =
+                (self.friction).strengths(here.volume, there, pair.distance2, pair.factor);
+            let [even, along] = factors.map(|s| -(s * rubbing));
             let friction = E::central(even, along, &pair.separation);
             wall = wall + friction;
             source += friction.apply(&self.walls.points.viscous_velocity[v]);
         }
-        let correction = self.correction_of(&here, rows);
+        let mut discrete = Vect::zeros();
+        if here.nearest.is_some() {
+            for (j, pair) in rows.free.pairs() {
+                let there = self.volume[j];
+                let shear = self.friction.shear(here.volume, there, &here.along, &pair);
+                discrete += pair.separation * shear;
+            }
+        }
+        let correction = self.correction(&here, discrete, rows);
         for contact in rows.contacts {
             let normal = &self.walls.elements.normal[contact.element as usize];
             let moving = self.walls.elements.velocity_at(&contact);
@@ -65,30 +67,6 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
             wall: wall * scale,
             source: source * scale,
         }
-    }
-
-    /// κ from the sums of the explicit term.
-    fn correction_of(&self, here: &OwnValues<D>, rows: &Neighbourhood<'_, D>) -> f64 {
-        if here.nearest.is_none() {
-            return 1.0;
-        }
-        let (mut discrete, mut gradient) = (Vect::zeros(), Vect::zeros());
-        let volume = here.volume;
-        for (j, pair) in rows.free.pairs() {
-            let there = self.volume[j];
-            discrete += pair.separation * self.friction.shear(volume, there, &here.along, &pair);
-        }
-        for (v, pair) in rows.wall.pairs() {
-            let there = self.walls.points.volume[v];
-            let shear = self.friction.shear(volume, there, &here.along, &pair);
-            discrete += pair.separation * (self.walls.points.share[v] * shear);
-        }
-        for contact in rows.contacts {
-            if !self.is_open(contact.element) {
-                gradient += contact.gradient;
-            }
-        }
-        self.correction(here, discrete, gradient)
     }
 }
 
@@ -110,10 +88,8 @@ impl<const D: usize, F: PairFriction<D>> PairNumbers<D, 3> for BoundFriction<'_,
         j: usize,
         pair: &LanePair<D, L>,
     ) -> [L; 3] {
-        let densities = [*density, L::splat(self.density[j])];
-        let friction = self.friction;
-        let mean = friction.means(&self.viscosity, viscosity, j, densities);
-        let there = L::splat(self.volume[j]);
+        let mean = self.means(viscosity, *density, j);
+        let (friction, there) = (self.friction, L::splat(self.volume[j]));
         let [even, along] = friction.strengths(*volume, there, pair.distance2, pair.factor);
         let eta = L::splat(-self.scale) * *volume * mean;
         let [even, along] = [even * eta, along * eta];

@@ -1,7 +1,7 @@
 //! Friction at walls: the slip past the nearest element, and the correction of the sum.
 
 use sph_core::Vect;
-use sph_neighbours::{Contact, Pair, Particles};
+use sph_neighbours::{Contact, Neighbourhood, Pair, Particles};
 
 use super::{BoundFriction, OwnValues, PairFriction};
 
@@ -76,11 +76,26 @@ impl<const D: usize, F: PairFriction<D>> BoundFriction<'_, D, F> {
         rubbing
     }
 
-    /// κ from Σ θ ½ t·f(t) r and G = Σ ∇γ_as.
+    /// κ from Σ θ ½ t·f(t) r, to which the walls are added, and G = Σ ∇γ_as.
     #[inline(always)]
-    pub(super) fn correction(&self, here: &OwnValues<D>, sum: Vect<D>, gradient: Vect<D>) -> f64 {
+    pub(super) fn correction(
+        &self,
+        here: &OwnValues<D>,
+        mut sum: Vect<D>,
+        rows: &Neighbourhood<'_, D>,
+    ) -> f64 {
+        if here.nearest.is_none() {
+            return 1.0;
+        }
+        for (v, pair) in rows.wall.pairs() {
+            let there = self.walls.points.volume[v];
+            let shear = self.friction.shear(here.volume, there, &here.along, &pair);
+            sum += pair.separation * (self.walls.points.share[v] * shear);
+        }
+        let closed = rows.contacts.iter().filter(|c| !self.is_open(c.element));
+        let gradient = closed.fold(Vect::<D>::zeros(), |sum, c| sum + c.gradient);
         let squared = gradient.norm_squared();
-        match here.nearest.is_some() && squared * self.spacing * self.spacing > FAINT * FAINT {
+        match squared * self.spacing * self.spacing > FAINT * FAINT {
             true => (sum.dot(&gradient) / squared).clamp(BOUNDS[0], BOUNDS[1]),
             false => 1.0,
         }

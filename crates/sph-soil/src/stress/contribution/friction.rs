@@ -5,7 +5,7 @@ use sph_contribution::{
 };
 use sph_core::{AnyField, Stage};
 use sph_multiphase::linear::{ImplicitViscosityEntry, LinearSolver, LinearSolverEntry, TimeScheme};
-use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, ViscousLimit};
+use sph_multiphase::viscosity::{ImplicitViscosity, PicardUpdates, viscous_limit};
 use sph_neighbours::World;
 use sph_rheology::Rheology;
 
@@ -87,11 +87,9 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         let largest = self.largest(setting);
         if largest > 0.0 {
             let mut laws = materials.laws.iter();
-            offer.limiter(ViscousLimit {
-                coefficient: setting.viscous / materials.operator.stiffness(),
-                largest,
-                constant: !materials.eddies && laws.all(|l| l.uniform_viscosity().is_some()),
-            });
+            let coefficient = setting.viscous / materials.operator.stiffness();
+            let constant = !materials.eddies && laws.all(|l| l.uniform_viscosity().is_some());
+            offer.limiter(viscous_limit(coefficient, largest, constant));
         }
         Ok(())
     }
