@@ -1,5 +1,6 @@
 //! A region in a box that may be periodic: depths across the period, where lattices start.
 
+use crate::geometry::shapes::axes_across;
 use crate::{Polygon, Region, Shape};
 
 /// A relative length that counts as rounding.
@@ -81,9 +82,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
                 axis,
                 ends,
             } if spanned => {
-                let mut rest = (0..D).filter(|k| k != axis);
-                let axes = std::array::from_fn(|_| rest.next().unwrap_or(0));
-                let side = self.across(polygon, spans, axes, x);
+                let side = self.across(polygon, spans, axes_across(*axis), x);
                 let end = |s: &[f64; D]| {
                     let at = x[*axis] - s[*axis];
                     (at - ends[0]).min(ends[1] - at)
