@@ -28,12 +28,12 @@ pub fn from_trouble(py: Python<'_>, trouble: &Trouble) -> PyErr {
     exception(py, class, text.trim_end(), &trouble.json().to_string())
 }
 
-/// The exception for a run that does not come to its end, after what a function of Python raised.
+/// The exception for a run that does not come to its end, caused by that of a function of Python if one raised it.
 pub fn from_run(py: Python<'_>, trouble: &Trouble) -> PyErr {
     caused(py, from_trouble(py, trouble))
 }
 
-/// An exception for a step that failed, or anything else without a place in a scene, after what a function raised.
+/// An exception for a step that failed, or anything else without a place in a scene, with the same cause.
 pub fn step(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
     caused(
         py,

@@ -23,7 +23,7 @@ pub struct Ended {
 }
 
 impl Ended {
-    /// Prints what it has told, to a program whether it is to be quiet or not, and after a stop the way to go on.
+    /// Prints the summary or results, to a program even if quiet, and after a stop the command to go on.
     pub(crate) fn conclude(&self, json: bool, quiet: bool) -> Result<(), Trouble> {
         if json || !quiet {
             self.told.print(json);
