@@ -172,7 +172,7 @@ impl<const D: usize> Shape<D> {
                 (lo, [f64::INFINITY; D])
             }
             Shape::Polygon(polygon) => {
-                let corners = sph_core::bounds(polygon.points().iter().copied());
+                let corners = polygon.bounds();
                 let [lo, hi] = corners.map(|x| std::array::from_fn(|k| x[k.min(1)]));
                 (lo, hi)
             }
@@ -193,7 +193,7 @@ impl<const D: usize> Shape<D> {
                 axis,
                 ends,
             } => {
-                let [low, high] = sph_core::bounds(polygon.points().iter().copied());
+                let [low, high] = polygon.bounds();
                 let of = |flat: [f64; 2], end: f64| {
                     let side = |k: usize| flat[k - usize::from(k > *axis)];
                     std::array::from_fn(|k| if k == *axis { end } else { side(k) })
