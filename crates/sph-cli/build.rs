@@ -1,57 +1,42 @@
 //! Compiles the shipped scenes with their data, and the shipped studies, into the binary; says what it is built with.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 fn main() {
     let scenes = place("scenes", "scenes");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed={}", scenes.display());
-    println!("cargo:rerun-if-changed={}", scenes.join("data").display());
+    let data = scenes.join("data");
+    println!("cargo:rerun-if-changed={}", data.display());
     let studies = place("studies", "studies");
     println!("cargo:rerun-if-changed={}", studies.display());
     let mut code = String::new();
     let tables = [
-        (
-            "SCENES",
-            "&str",
-            "include_str",
-            scenes.clone(),
-            &["toml"][..],
-            "",
-        ),
-        ("STUDIES", "&str", "include_str", studies, &["toml"][..], ""),
+        ("SCENES", "&str", "include_str", "", &scenes, "toml"),
+        ("STUDIES", "&str", "include_str", "", &studies, "toml"),
         (
             "DATA",
             "&[u8]",
             "include_bytes",
-            scenes.join("data"),
-            &["csv", "stl", "svg"][..],
             "data/",
+            &data,
+            "csv stl svg",
         ),
     ];
-    for (table, kind, include, folder, extensions, prefix) in tables {
-        writeln!(code, "const {table}: &[(&str, {kind})] = &[").expect("a string takes all");
-        for file in files(&folder, extensions) {
+    for (table, kind, include, prefix, folder, extensions) in tables {
+        code += &format!("const {table}: &[(&str, {kind})] = &[\n");
+        for file in files(folder, extensions) {
             println!("cargo:rerun-if-changed={}", file.display());
             let name = file.file_name().and_then(|n| n.to_str()).unwrap_or("");
             let name = name.trim_end_matches(".toml");
-            writeln!(
-                code,
-                "    ({:?}, {include}!({file:?})),",
-                format!("{prefix}{name}")
-            )
-            .expect("a string takes all");
+            let name = format!("{prefix}{name}");
+            code += &format!("    ({name:?}, {include}!({file:?})),\n");
         }
         code.push_str("];\n");
     }
     let gallery = place("docs/gallery.toml", "gallery.toml");
     println!("cargo:rerun-if-changed={}", gallery.display());
-    writeln!(
-        code,
-        "pub(crate) const GALLERY: &str = include_str!({gallery:?});"
-    )
-    .expect("a string takes all");
+    code += &format!("pub(crate) const GALLERY: &str = include_str!({gallery:?});\n");
     let out = std::env::var("OUT_DIR").expect("cargo sets the output folder");
     std::fs::write(Path::new(&out).join("shipped.rs"), code).expect("the output folder is ours");
     let lock = place("Cargo.lock", "Cargo.lock");
@@ -91,14 +76,12 @@ fn built_with(lock: &Path) -> String {
 }
 
 /// Files of a folder with one of these extensions, sorted; none if there is no folder.
-fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
+fn files(folder: &Path, extensions: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut all: Vec<PathBuf> = entries
-        .map(|e| e.path())
-        .filter(|p| {
-            p.extension()
-                .is_some_and(|e| extensions.iter().any(|x| e == *x))
-        })
+    let one_of = |e: &std::ffi::OsStr| extensions.split(' ').any(|x| e == x);
+    let files = entries.map(|e| e.path());
+    let mut all: Vec<_> = files
+        .filter(|p| p.extension().is_some_and(one_of))
         .collect();
     all.sort();
     all

@@ -3,6 +3,8 @@
 use pyo3::prelude::*;
 use sph_cli::library::Trouble;
 
+use crate::functions;
+
 /// An exception of a class of `sph._errors`, with a text and what a program is told.
 fn exception(py: Python<'_>, class: &str, text: &str, json: &str) -> PyErr {
     let made = py
@@ -26,9 +28,22 @@ pub fn from_trouble(py: Python<'_>, trouble: &Trouble) -> PyErr {
     exception(py, class, text.trim_end(), &trouble.json().to_string())
 }
 
-/// An exception for a step that failed, or anything else without a place in a scene.
+/// The exception for a run that does not come to its end, caused by that of a function of Python if one raised it.
+pub fn from_run(py: Python<'_>, trouble: &Trouble) -> PyErr {
+    caused(py, from_trouble(py, trouble))
+}
+
+/// An exception for a step that failed, or anything else without a place in a scene, with the same cause.
 pub fn step(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
-    exception(py, "RunError", &format!("error: {error}"), "null")
+    caused(
+        py,
+        exception(py, "RunError", &format!("error: {error}"), "null"),
+    )
+}
+
+fn caused(py: Python<'_>, error: PyErr) -> PyErr {
+    error.set_cause(py, functions::raised());
+    error
 }
 
 /// An exception for what is not there or cannot be.

@@ -41,17 +41,11 @@ pub fn read_vtu(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let points: Vec<f64> = piece.points.as_flattened().to_vec();
     let rows = points.len() / 3;
     all.set_item("points", PyArray1::from_vec(py, points).reshape([rows, 3])?)?;
-    let corners = match &piece.cells {
-        Cells::Vertices => (0..rows as u32).collect(),
-        Cells::Segments(c) => c.as_flattened().to_vec(),
-        Cells::Triangles(c) => c.as_flattened().to_vec(),
-        Cells::Tetrahedra(c) => c.as_flattened().to_vec(),
-    };
-    let per = match piece.cells {
-        Cells::Vertices => 1,
-        Cells::Segments(_) => 2,
-        Cells::Triangles(_) => 3,
-        Cells::Tetrahedra(_) => 4,
+    let (per, corners) = match &piece.cells {
+        Cells::Vertices => (1, (0..rows as u32).collect()),
+        Cells::Segments(c) => (2, c.as_flattened().to_vec()),
+        Cells::Triangles(c) => (3, c.as_flattened().to_vec()),
+        Cells::Tetrahedra(c) => (4, c.as_flattened().to_vec()),
     };
     let count = corners.len() / per;
     all.set_item(

@@ -6,9 +6,9 @@ use std::sync::atomic::Ordering;
 use pyo3::prelude::*;
 use sph_cli::library::{self, SceneArguments};
 
+use crate::errors;
 use crate::scene::opened;
 use crate::watch::{Shared, Watching, watched};
-use crate::{errors, functions};
 
 /// Text for people, JSON for programs.
 type Pair = (String, String);
@@ -84,12 +84,8 @@ pub fn run(
     let ran = watched(py, &shared, progress, message, || {
         library::run(&wanted, &opened, &mut Watching(&shared))
     })?;
-    let ended = ran.map_err(|trouble| {
-        let error = errors::from_trouble(py, &trouble);
-        error.set_cause(py, functions::raised());
-        error
-    })?;
-    let stopped = ended.interrupted.is_some();
+    let ended = ran.map_err(|t| errors::from_run(py, &t))?;
+    let stopped = ended.going_on.is_some();
     Ok((
         ended.told.text,
         ended.told.json.to_string(),

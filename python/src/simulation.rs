@@ -1,5 +1,6 @@
 //! A scene stepped from Python.
 
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
@@ -11,8 +12,8 @@ use sph_core::{Role, StepError};
 use sph_particles::{RunError, Stepper};
 
 use crate::columns::{array, axes, field_of, from_array, numbers};
+use crate::errors;
 use crate::scene::opened;
-use crate::{errors, functions};
 
 enum Flow {
     Planar(Box<Stepper<2>>),
@@ -52,12 +53,6 @@ fn assembled(scene: &sph_cli::library::ParticleScene) -> Result<Flow, RunError> 
     })
 }
 
-fn failed(py: Python<'_>, error: &StepError) -> PyErr {
-    let told = errors::step(py, error);
-    told.set_cause(py, functions::raised());
-    told
-}
-
 impl Simulation {
     /// The flow, unless it is being stepped.
     fn flow(&self) -> PyResult<MutexGuard<'_, Flow>> {
@@ -71,15 +66,15 @@ impl Simulation {
     }
 
     /// Work on the flow with the threads of the simulation.
-    fn with<T: Send>(
+    fn with<T: Send, E: Display + Send>(
         &self,
         py: Python<'_>,
-        work: impl FnOnce(&mut Flow) -> Result<T, StepError> + Send,
+        work: impl FnOnce(&mut Flow) -> Result<T, E> + Send,
     ) -> PyResult<T> {
         let mut flow = self.flow()?;
         let flow = &mut *flow;
         let done = py.detach(|| self.pool.install(|| work(flow)));
-        done.map_err(|e| failed(py, &e))
+        done.map_err(|e| errors::step(py, &e))
     }
 }
 
@@ -116,11 +111,7 @@ impl Simulation {
                 Ok::<_, RunError>(flow)
             })
         });
-        let flow = made.map_err(|e| {
-            let told = errors::from_trouble(py, &Trouble::in_scene(e, &loaded.source));
-            told.set_cause(py, functions::raised());
-            told
-        })?;
+        let flow = made.map_err(|e| errors::from_run(py, &Trouble::in_scene(e, &loaded.source)))?;
         Ok(Simulation {
             flow: Mutex::new(flow),
             pool,
@@ -192,7 +183,7 @@ impl Simulation {
         let Some((numbers, axes)) = found else {
             return Err(PyKeyError::new_err(name.to_string()));
         };
-        let numbers = numbers.map_err(|e| failed(py, &e.into()))?;
+        let numbers = numbers.map_err(|e| errors::step(py, &StepError::from(e)))?;
         array(py, numbers, &axes)
     }
 
@@ -207,19 +198,12 @@ impl Simulation {
         let shape = shape.ok_or_else(|| PyKeyError::new_err(name.to_string()))?;
         let values = from_array(values, &shape)?;
         let done = each!(&mut *flow, s => s.set(name, &values));
-        done.map_err(|e| failed(py, &e))
+        done.map_err(|e| errors::step(py, &e))
     }
 
     /// What the probes measure now: values and units by name.
     fn measure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let mut flow = self.flow()?;
-        let flow = &mut *flow;
-        let measured = py.detach(|| self.pool.install(|| each!(flow, s => s.measure())));
-        let measured = measured.map_err(|e| {
-            let told = errors::step(py, &e);
-            told.set_cause(py, functions::raised());
-            told
-        })?;
+        let measured = self.with(py, |flow| each!(flow, s => s.measure()))?;
         let all = PyDict::new(py);
         for (name, unit, value) in measured {
             all.set_item(name, (value, unit))?;

@@ -43,18 +43,8 @@ impl fmt::Display for Diagnostic {
 
 /// Line and column, from 1, of a byte; a byte past the end counts as the end.
 pub(crate) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
-    let byte = floor_char(text, byte);
-    let before = &text[..byte];
+    let before = &text[..text.floor_char_boundary(byte)];
     let start = before.rfind('\n').map_or(0, |n| n + 1);
     let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
     (line, before[start..].chars().count() + 1)
-}
-
-/// The nearest boundary of a character at or before a byte.
-pub(crate) fn floor_char(text: &str, byte: usize) -> usize {
-    let mut byte = byte.min(text.len());
-    while !text.is_char_boundary(byte) {
-        byte -= 1;
-    }
-    byte
 }

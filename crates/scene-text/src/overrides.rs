@@ -13,12 +13,6 @@ const DEEPEST: usize = 32;
 pub struct OnePlugin(pub fn() -> Vec<Vec<&'static str>>);
 inventory::collect!(OnePlugin);
 
-/// All such tables of this binary.
-fn single() -> Vec<Vec<&'static str>> {
-    let lists = inventory::iter::<OnePlugin>.into_iter();
-    lists.flat_map(|list| (list.0)()).collect()
-}
-
 /// A value for a key of the scene in place of that of the file.
 ///
 /// The value is TOML; text that is not TOML is taken as a string, so that a shell needs no second pair of quotes.
@@ -140,10 +134,11 @@ impl Override {
             Segment::Key(key) => *wanted == "*" || wanted == key,
             Segment::Index(_) => false,
         };
-        let fits = |pattern: &Vec<&str>| {
+        let fits = |pattern: Vec<&str>| {
             pattern.len() == depth && pattern.iter().zip(&self.segments).all(named)
         };
-        single().iter().any(fits)
+        let lists = inventory::iter::<OnePlugin>.into_iter();
+        lists.flat_map(|list| (list.0)()).any(fits)
     }
 }
 

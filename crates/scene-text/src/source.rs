@@ -7,7 +7,7 @@ use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
-use crate::diagnostic::{Diagnostic, Origin, floor_char, line_and_column};
+use crate::diagnostic::{Diagnostic, Origin, line_and_column};
 use crate::files::{FILE_BYTES, joined, within};
 use crate::overrides::Override;
 use crate::{MOST_PROBLEMS, SceneProblem, is_within};
@@ -102,8 +102,8 @@ impl Source {
         message: &str,
     ) -> Diagnostic {
         let text = self.text_at(origin);
-        let start = floor_char(text, span.start);
-        let end = floor_char(text, span.end.max(span.start));
+        let start = text.floor_char_boundary(span.start);
+        let end = text.floor_char_boundary(span.end.max(span.start));
         let first = text[start..end].find(['\n', '\r']);
         let end = first.map_or(end, |n| start + n);
         let (line, column) = line_and_column(text, start);

@@ -24,8 +24,7 @@ pub fn flag() -> Arc<AtomicBool> {
     if let Err(error) = handled {
         report_unhandled("Ctrl-C", error);
     }
-    too_long();
-    if let Err(error) = terminated(&raised) {
+    if let Err(error) = other_signals(&raised) {
         report_unhandled("SIGTERM and SIGHUP", error);
     }
     raised
@@ -37,24 +36,16 @@ fn report_unhandled(signals: &str, error: impl std::fmt::Display) {
     ));
 }
 
-/// A file longer than `ulimit -f` allows is reported as a full disk; by default the process ends without a message.
-#[cfg(unix)]
-fn too_long() {
-    use signal_hook::{consts::SIGXFSZ, flag};
-    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
-}
-
-#[cfg(not(unix))]
-fn too_long() {}
-
 /// SIGTERM raises the flag too; where it is up, the process ends. So does SIGHUP, of which a terminal that closes may
 /// send several: none of them ends the process.
 #[cfg(unix)]
-fn terminated(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
+fn other_signals(raised: &Arc<AtomicBool>) -> std::io::Result<()> {
     use signal_hook::{
-        consts::{SIGHUP, SIGTERM},
+        consts::{SIGHUP, SIGTERM, SIGXFSZ},
         flag,
     };
+    // A file longer than `ulimit -f` allows is reported as a full disk; by default the process ends without a message.
+    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
     flag::register_conditional_shutdown(SIGTERM, 1, raised.clone())?;
     flag::register(SIGTERM, raised.clone())?;
     if told_of_hang_up() {
@@ -73,6 +64,6 @@ fn told_of_hang_up() -> bool {
 }
 
 #[cfg(not(unix))]
-fn terminated(_: &Arc<AtomicBool>) -> std::io::Result<()> {
+fn other_signals(_: &Arc<AtomicBool>) -> std::io::Result<()> {
     Ok(())
 }

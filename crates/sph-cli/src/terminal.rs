@@ -8,6 +8,6 @@ pub mod shell;
 pub mod study_progress;
 mod trouble;
 
-pub use console::{CommandOutput, Ended};
+pub use console::CommandOutput;
 pub use layout::*;
-pub use trouble::{ModelError, Trouble};
+pub use trouble::{Ended, ModelError, Trouble};

@@ -124,15 +124,12 @@ pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
 /// # Errors
 /// A file that cannot be read, at its key.
 pub fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SolverError> {
-    let mark = |file: sph_scene::DataFile| {
-        let path = file.path;
-        let path = path.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?;
+    let mark = |(key, file): (String, String)| {
+        let path = loaded.source.resolve(&key, &file);
+        let path = path.map_err(|why| SolverError::at(key.clone(), why))?;
         let content = sph_io::checksum(&path, LONGEST);
-        Ok(FileMark {
-            content: content.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?,
-            key: file.key,
-            file: file.named,
-        })
+        let content = content.map_err(|e| SolverError::at(key.clone(), e.to_string()))?;
+        Ok(FileMark { content, key, file })
     };
     loaded.files().into_iter().map(mark).collect()
 }

@@ -68,7 +68,7 @@ pub fn fill<const D: usize>(
             let x = std::array::from_fn(|k| node[k] + shift[k]);
             taken.around(x).any(|y| distance(&x, y) < least)
         };
-        let free = || !placed[body].shifts().iter().any(near);
+        let free = || !placed[body].shifts.iter().any(near);
         if free() && around.iter().all(|d| within(beside(d))) {
             taken.add(node, node);
             filled[body].positions.push(wrapped(&node, periodic));

@@ -59,7 +59,7 @@ pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
 pub use geometry::wall_geometry::sense;
-pub use reading::load::{DataFile, LoadError, Loaded, Refused, load, parse, read};
+pub use reading::load::{LoadError, Loaded, Refused, load, parse, read};
 pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};

@@ -70,7 +70,7 @@ impl Results {
             title: study.file.title.clone(),
             description: study.file.description.clone(),
             scene: study.scene.clone(),
-            definition: study.definition().to_string(),
+            definition: study.source.text().to_string(),
             set: study.set.clone(),
             errors: study.errors.clone(),
             refinement: study.refinement.clone(),

@@ -11,6 +11,7 @@ use sph_particles::{ZoneSize, draw_scene, examine_and_try};
 
 use crate::arguments::CheckArguments;
 use crate::commands::draw::picture;
+use crate::commands::outcome::wall_time;
 use crate::commands::{grains, mesh};
 use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::{CommandOutput, Rows, Trouble, memory, quantities, row, sections};
@@ -73,11 +74,11 @@ pub fn output(opened: &OpenScene, threads: Option<usize>) -> Result<CommandOutpu
             let steps = (loaded.scene.run.end / trial.dt).ceil();
             examined.estimate.steps = steps;
             without_zones = trial.without_zones;
-            hours = Some(steps * trial.seconds * share / 3600.0);
-            let time = number::duration(steps * trial.seconds * share);
+            let seconds = steps * trial.seconds * share;
+            hours = Some(seconds / 3600.0);
+            let time = wall_time(seconds, threads);
             let first = number::count(trial.steps as f64);
-            format!("about {time} on {threads} threads, by {first} of its first steps on {on}")
-                .replace(" 1 threads", " 1 thread")
+            format!("about {time}, by {first} of its first steps on {on}")
         }
         Ok(None) => "that of a few steps".into(),
         Err(why) => {

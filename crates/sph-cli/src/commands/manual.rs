@@ -61,19 +61,3 @@ fn page(command: clap::Command) -> Vec<u8> {
     let _ = Man::new(command).render(&mut page);
     page
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_command_has_a_page_with_its_options() {
-        let pages = pages();
-        let names: Vec<&str> = pages.iter().map(|(n, _)| n.as_str()).collect();
-        assert!(names.contains(&"sph") && names.contains(&"sph-run") && names.contains(&"sph-man"));
-        let (_, run) = pages.iter().find(|(n, _)| n == "sph-run").expect("a page");
-        let run = String::from_utf8_lossy(run);
-        let both = run.contains("resume") && run.contains(".SH SYNOPSIS");
-        assert!(both, "{run}");
-    }
-}

@@ -7,7 +7,8 @@ mod snippet;
 
 use serde_json::{Value as Json, json};
 use sph_core::{
-    Parameter, PluginInfo, PluginKind, comma_list, kinds, parameters, some_unit, suggestion,
+    Parameter, PluginInfo, PluginKind, RegistryError, comma_list, kinds, parameters, some_unit,
+    suggestion,
 };
 
 use crate::terminal::{CommandOutput, Trouble, WIDTH, columns, paragraph, paragraphs, row};
@@ -70,15 +71,8 @@ fn find_kind<'k>(kinds: &[&'k PluginKind], name: &str) -> Result<&'k PluginKind,
 fn find_plugin(kind: &PluginKind, name: &str) -> Result<PluginInfo, Trouble> {
     let plugins = (kind.plugins)();
     let found = plugins.iter().find(|p| p.name == name);
-    let unknown = || {
-        let names = || plugins.iter().map(|p| p.name);
-        let (near, known) = (suggestion(name, names()), comma_list(names()));
-        format!(
-            "there is no {} called `{name}`{near} (registered: {known}; a plugin of another crate must be \
-             mentioned in your binary: `use my_plugin as _;`)",
-            kind.name
-        )
-    };
+    let known = plugins.iter().map(|p| p.name);
+    let unknown = || RegistryError::unknown(kind.name, name, known).to_string();
     Ok(*found.ok_or_else(unknown)?)
 }
 

@@ -12,7 +12,7 @@ use crate::commands::file_list::read_summary;
 use crate::commands::{grains, outcome};
 use crate::scene_file::{AnyScene, OpenScene, open};
 use crate::terminal::progress::Watcher;
-use crate::terminal::{CommandOutput, Ended, ModelError, Trouble, console, shell};
+use crate::terminal::{CommandOutput, Ended, ModelError, Trouble, shell};
 use crate::{interrupt, ranks};
 
 pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
@@ -29,7 +29,7 @@ pub fn command(arguments: &RunArguments) -> Result<(), Trouble> {
     watcher.finish();
     let ended = ended?;
     match ranks::is_first() {
-        true => conclude(arguments, &ended, &out),
+        true => ended.conclude(arguments.json, arguments.quiet),
         false => Ok(()),
     }
 }
@@ -87,7 +87,8 @@ fn particles(
         return Ok(Ended::default());
     };
     let text = outcome::text(&s, out);
-    Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
+    let reached = (s.status, s.simulated_seconds, s.steps);
+    Ok(ended(&s, text, reached, &going_on(arguments, out)))
 }
 
 fn grains(
@@ -109,7 +110,8 @@ fn grains(
     let result = dem_pfv::scene::run(loaded, &options, observer);
     let s = result.map_err(|error| trouble(error, arguments, &loaded.source, out))?;
     let text = grains::outcome(&s, out);
-    Ok(ended(&s, text, (s.status, s.simulated_seconds, s.steps)))
+    let reached = (s.status, s.simulated_seconds, s.steps);
+    Ok(ended(&s, text, reached, &going_on(arguments, out)))
 }
 
 fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> {
@@ -117,12 +119,17 @@ fn options(arguments: &RunArguments, out: &Path) -> Result<RunOptions, Trouble> 
     Ok(options.threads(arguments.threads.map(usize::from)))
 }
 
-/// The end of a run whose summary is a text, with the time (s) and the step that it reached.
-fn ended(found: &impl Serialize, text: String, (status, time, step): (Status, f64, u64)) -> Ended {
-    let stopped = status != Status::Done;
+/// The end of a run whose summary is a text, with the time (s) and the step that it reached, and the command to go on.
+fn ended(
+    found: &impl Serialize,
+    text: String,
+    (status, time, step): (Status, f64, u64),
+    again: &str,
+) -> Ended {
+    let kept = format!("interrupted at t = {time:.6} s, step {step}; go on with\n  {again}");
     Ended {
-        interrupted: stopped.then_some((time, step)),
         told: CommandOutput::new(found, text),
+        going_on: (status != Status::Done).then_some(kept),
     }
 }
 
@@ -148,20 +155,6 @@ fn start(arguments: &RunArguments, out: &Path) -> Result<Start, Trouble> {
         return Err(format!("{} {why}", out.display()).into());
     }
     Ok(Start::From(file))
-}
-
-fn conclude(arguments: &RunArguments, ended: &Ended, out: &Path) -> Result<(), Trouble> {
-    if arguments.json || !arguments.quiet {
-        ended.told.print(arguments.json);
-    }
-    let Some((time, steps)) = ended.interrupted else {
-        return Ok(());
-    };
-    console::err(&format!(
-        "interrupted at t = {time:.6} s, step {steps}; go on with\n  {}",
-        going_on(arguments, out)
-    ));
-    Err(Trouble::Interrupted)
 }
 
 fn trouble(

@@ -15,7 +15,7 @@ use crate::arguments::StudyArguments;
 use crate::scene_file::{FoundScene, allowed, find, overrides};
 use crate::shipped::Content;
 use crate::terminal::study_progress::Watcher;
-use crate::terminal::{CommandOutput, Trouble, columns, console, shell};
+use crate::terminal::{CommandOutput, Ended, Trouble, columns, console, shell};
 use crate::{interrupt, shipped};
 
 /// Most series whose orders are printed; the report has all.
@@ -25,30 +25,15 @@ pub fn command(arguments: &StudyArguments) -> Result<(), Trouble> {
     if let [first, second] = arguments.compare.as_slice() {
         return compared(arguments, first, second);
     }
-    let studied = conduct(arguments, interrupt::flag())?;
-    if arguments.json || !arguments.quiet {
-        studied.told.print(arguments.json);
-    }
-    let Some(kept) = studied.going_on else {
-        return Ok(());
-    };
-    console::err(&kept);
-    Err(Trouble::Interrupted)
-}
-
-/// The end of a study.
-pub struct Studied {
-    /// Its results.
-    pub told: CommandOutput,
-    /// Kept results and the command to go on, if it stopped before its end.
-    pub going_on: Option<String>,
+    let ended = conduct(arguments, interrupt::flag())?;
+    ended.conclude(arguments.json, arguments.quiet)
 }
 
 /// Runs a study until it is done or the flag is raised. Unless it is quiet, it reports its progress on stderr.
 ///
 /// # Errors
 /// Mistakes of the study or its scenes with their places, files that cannot be written.
-pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Studied, Trouble> {
+pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Ended, Trouble> {
     let name = arguments.study.as_deref().unwrap_or_default();
     // The data of compiled-in scenes are needed until the last variant has run.
     let scenes: RefCell<BTreeMap<String, FoundScene>> = RefCell::default();
@@ -73,7 +58,7 @@ pub fn conduct(arguments: &StudyArguments, stop: Arc<AtomicBool>) -> Result<Stud
     }
     published?;
     let records = &outcome.records;
-    Ok(Studied {
+    Ok(Ended {
         told: CommandOutput::new(&results, text(&results, &out)),
         going_on: outcome.stopped.then(|| kept(arguments, name, records)),
     })

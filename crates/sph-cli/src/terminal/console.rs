@@ -70,12 +70,3 @@ impl CommandOutput {
         }
     }
 }
-
-/// The end of a run, which may be a stop by the user.
-#[derive(Default)]
-pub struct Ended {
-    /// Its summary.
-    pub told: CommandOutput,
-    /// Time, s, and step of a stop before the end; none if it ran to the end.
-    pub interrupted: Option<(f64, u64)>,
-}

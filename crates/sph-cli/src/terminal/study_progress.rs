@@ -52,11 +52,17 @@ struct State {
     started: Instant,
     told: Instant,
     settled: usize,
-    /// Work of every variant that has to run, by name.
-    cost: BTreeMap<String, f64>,
-    /// Share of every variant that has begun, by name.
-    share: BTreeMap<String, f64>,
-    repetition: BTreeMap<String, usize>,
+    /// By name.
+    variants: BTreeMap<String, VariantProgress>,
+}
+
+#[derive(Default)]
+struct VariantProgress {
+    /// Work of a run, 0 where none is to be done.
+    cost: f64,
+    /// Share that is done.
+    share: f64,
+    repetition: usize,
 }
 
 impl<'s> Watcher<'s> {
@@ -80,9 +86,7 @@ impl<'s> Watcher<'s> {
                 started: Instant::now(),
                 told: Instant::now(),
                 settled: total - to_run,
-                cost: BTreeMap::new(),
-                share: BTreeMap::new(),
-                repetition: BTreeMap::new(),
+                variants: BTreeMap::new(),
             }),
         }
     }
@@ -90,7 +94,7 @@ impl<'s> Watcher<'s> {
     /// A variant is good and will take about so long.
     pub fn assembled(&self, variant: &Variant, work: f64) {
         let mut state = self.state();
-        state.cost.insert(variant.name.clone(), work.max(1e-3));
+        state.variant(variant).cost = work.max(1e-3);
         if let Display::Bar(bar) = &self.display {
             let text = format!("checked {}", variant.name);
             bar.set_message(sph_io::clean(&text).into_owned());
@@ -115,7 +119,7 @@ impl<'s> Watcher<'s> {
             }
             _ => String::new(),
         };
-        let own = state.share.get(variant).copied().unwrap_or(0.0);
+        let own = state.variants.get(variant).map_or(0.0, |own| own.share);
         let (settled, total, own) = (state.settled, self.total, 100.0 * own);
         let text = format!("{settled} of {total}{left}  {variant} {own:.0} %");
         self.display.show(share, &text);
@@ -123,11 +127,13 @@ impl<'s> Watcher<'s> {
 }
 
 impl State {
+    fn variant(&mut self, variant: &Variant) -> &mut VariantProgress {
+        self.variants.entry(variant.name.clone()).or_default()
+    }
+
     fn done_share(&self) -> f64 {
-        let all: f64 = self.cost.values().sum();
-        let shares = self.share.iter();
-        let done = shares.map(|(name, share)| share * self.cost.get(name).unwrap_or(&0.0));
-        let done: f64 = done.sum();
+        let all: f64 = self.variants.values().map(|v| v.cost).sum();
+        let done: f64 = self.variants.values().map(|v| v.share * v.cost).sum();
         match all > 0.0 {
             true => (done / all).min(1.0),
             false => 0.0,
@@ -138,7 +144,7 @@ impl State {
 impl sph_study::Watcher for Watcher<'_> {
     fn started(&self, variant: &Variant, repetition: usize) {
         let mut state = self.state();
-        state.repetition.insert(variant.name.clone(), repetition);
+        state.variant(variant).repetition = repetition;
         if matches!(self.display, Display::Bar(_)) {
             self.print(&state, &variant.name);
         }
@@ -150,10 +156,9 @@ impl sph_study::Watcher for Watcher<'_> {
             return;
         }
         state.told = Instant::now();
-        let before = state.repetition.get(&variant.name).copied().unwrap_or(0) as f64;
+        let own = state.variant(variant);
         let repetitions = self.study.file.repetitions as f64;
-        let share = (before + progress.time / progress.end) / repetitions;
-        state.share.insert(variant.name.clone(), share);
+        own.share = (own.repetition as f64 + progress.time / progress.end) / repetitions;
         self.print(&state, &variant.name);
     }
 
@@ -167,7 +172,7 @@ impl sph_study::Watcher for Watcher<'_> {
 
     fn finished(&self, variant: &Variant, record: &Record) {
         let mut state = self.state();
-        state.share.insert(variant.name.clone(), 1.0);
+        state.variant(variant).share = 1.0;
         let mut all = self.study.variants.iter().zip(&self.open);
         if !all.any(|(own, open)| *open && own.name == variant.name) {
             return;

@@ -1,4 +1,4 @@
-//! Errors that end a command, and their texts.
+//! The end of a run or a study, and errors that end a command, with their texts.
 
 use dem_pfv::scene::DemError;
 use serde_json::{Value as Json, json};
@@ -10,7 +10,31 @@ use sph_scene::Source;
 use sph_solver::SolverError;
 use sph_study::{Mistake, ReadError};
 
+use crate::terminal::console::CommandOutput;
 use crate::terminal::{console, diagnostics};
+
+/// The end of a run or a study, which may be a stop by the user.
+#[derive(Default)]
+pub struct Ended {
+    /// Its summary or results.
+    pub told: CommandOutput,
+    /// State that is kept and the command to go on, if it stopped before its end.
+    pub going_on: Option<String>,
+}
+
+impl Ended {
+    /// Prints the summary or results, to a program even if quiet, and after a stop the command to go on.
+    pub(crate) fn conclude(&self, json: bool, quiet: bool) -> Result<(), Trouble> {
+        if json || !quiet {
+            self.told.print(json);
+        }
+        let Some(going_on) = &self.going_on else {
+            return Ok(());
+        };
+        console::err(going_on);
+        Err(Trouble::Interrupted)
+    }
+}
 
 /// The reason why a command ended early.
 pub enum Trouble {

@@ -106,7 +106,7 @@ pub(crate) fn apart<const D: usize>(scene: &Scene, found: &mut Problems) {
     let mut work = WORK;
     for (i, first) in placed.iter().enumerate() {
         for (j, second) in placed.iter().enumerate().skip(i + 1) {
-            let effort = (edges(&regions[i]) + edges(&regions[j])) * first.shifts().len() as f64;
+            let effort = (edges(&regions[i]) + edges(&regions[j])) * first.shifts.len() as f64;
             let both = common(first, second, spacing, effort, &mut work);
             if let (Some(place), [a, b]) = (both, [names[i], names[j]]) {
                 let at = point(&place);
@@ -123,7 +123,7 @@ pub(crate) fn apart<const D: usize>(scene: &Scene, found: &mut Problems) {
 
 fn edges<const D: usize>(region: &Region<D>) -> f64 {
     let of = |shape: &Shape<D>| match shape {
-        Shape::Polygon(polygon) | Shape::Extrusion { polygon, .. } => polygon.points().len() as f64,
+        Shape::Polygon(polygon) | Shape::Extrusion { polygon, .. } => polygon.points.len() as f64,
         _ => 1.0,
     };
     of(&region.base) + region.cuts.iter().map(of).sum::<f64>()

@@ -136,8 +136,8 @@ impl TableCheck<'_> {
         let Some(corners) = self.chain(key, points, true) else {
             return;
         };
-        let [lo, hi] = sph_core::bounds(corners.iter().copied());
         let polygon = Polygon::new(corners);
+        let [lo, hi] = polygon.bounds();
         let size = (hi[0] - lo[0]).max(hi[1] - lo[1]);
         let flat = (hi[0] - lo[0]).min(hi[1] - lo[1]) <= 1e-12 * size;
         let edges: Vec<_> = polygon.edges().collect();

@@ -44,6 +44,16 @@ pub(crate) fn named(text: &str, name: &str, form: &Form) -> Result<Vec<Vec<Row>>
     }
 }
 
+impl Line {
+    /// The lines of a table of two columns, one for every block of rows.
+    ///
+    /// # Errors
+    /// If a row is not two finite numbers, or a line has one corner only: the given name, the place, the fault there.
+    pub fn from_csv(text: &str, name: &str) -> Result<Vec<Self>, String> {
+        lines(text, name, &Form::places(&None, None))
+    }
+}
+
 /// The lines of the text of a file called `name`: a block of rows is one.
 pub(crate) fn lines(text: &str, name: &str, form: &Form) -> Result<Vec<Line>, String> {
     let line = |block: Vec<Row>| {

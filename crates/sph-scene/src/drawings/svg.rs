@@ -16,59 +16,64 @@ const LARGEST: f64 = 1e9;
 /// Shares of the tolerance that arcs lose to cubics and cubics to straight edges.
 const SHARES: [f64; 2] = [0.1, 0.8];
 
-/// Lines of the text of a drawing called `name`, upright, in user units; curves within `tolerance` user units.
-///
-/// The origin is the lower left corner of the `viewBox`, else of the width and height, else the upper left corner.
-pub(crate) fn parse(text: &str, name: &str, tolerance: f64) -> Result<Vec<Line>, String> {
-    let told = |why: String| format!("`{name}`: {why}");
-    let options = ParsingOptions {
-        allow_dtd: true,
-        nodes_limit: NODES,
-        ..ParsingOptions::default()
-    };
-    let document = Document::parse_with_options(text, options)
-        .map_err(|e| told(format!("it is no SVG drawing: {e}")))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "svg" {
-        return Err(told("it is no SVG drawing: there is no <svg>".to_string()));
-    }
-    let mut lines = Lines {
-        tolerance,
-        found: Vec::new(),
-        corners: 0,
-    };
-    let upright = upright(&root).map_err(told)?;
-    // Not by recursion: drawings may be nested to any depth.
-    let mut waiting: Vec<(Node<'_, '_>, Affine)> = children(&root, upright);
-    while let Some((node, outer)) = waiting.pop() {
-        let name = node.tag_name().name();
-        let place = |why: String| {
-            let at = document.text_pos_at(node.range().start);
-            told(format!("line {}: <{name}>: {why}", at.row))
+impl Line {
+    /// The lines of an SVG drawing, upright, in user units; curves within `tolerance` user units.
+    ///
+    /// The origin is the lower left corner of the `viewBox`, else of the width and height, else the upper left corner.
+    ///
+    /// # Errors
+    /// If it is no drawing, holds no lines, or is too large for the tolerance: the given name, the place, the fault there.
+    pub fn from_svg(text: &str, name: &str, tolerance: f64) -> Result<Vec<Self>, String> {
+        let told = |why: String| format!("`{name}`: {why}");
+        let options = ParsingOptions {
+            allow_dtd: true,
+            nodes_limit: NODES,
+            ..ParsingOptions::default()
         };
-        if hidden(&node) {
-            continue;
+        let document = Document::parse_with_options(text, options)
+            .map_err(|e| told(format!("it is no SVG drawing: {e}")))?;
+        let root = document.root_element();
+        if root.tag_name().name() != "svg" {
+            return Err(told("it is no SVG drawing: there is no <svg>".to_string()));
         }
-        let placed = match node.attribute("transform") {
-            Some(text) => outer * transform(text).map_err(place)?,
-            None => outer,
+        let mut lines = Lines {
+            tolerance,
+            found: Vec::new(),
+            corners: 0,
         };
-        match name {
-            "svg" | "use" | "text" => {
-                let why = "it is not read; turn it into paths (unlink clones, convert text)";
-                return Err(place(why.to_string()));
+        let upright = upright(&root).map_err(told)?;
+        // Not by recursion: drawings may be nested to any depth.
+        let mut waiting: Vec<(Node<'_, '_>, Affine)> = children(&root, upright);
+        while let Some((node, outer)) = waiting.pop() {
+            let name = node.tag_name().name();
+            let place = |why: String| {
+                let at = document.text_pos_at(node.range().start);
+                told(format!("line {}: <{name}>: {why}", at.row))
+            };
+            if hidden(&node) {
+                continue;
             }
-            "g" | "a" | "switch" => waiting.extend(children(&node, placed)),
-            _ => {
-                let tolerance = SHARES[0] * tolerance / scale(&placed);
-                if let Some(path) = drawn(&node, tolerance).map_err(place)? {
-                    lines.add(&(placed * path)).map_err(place)?;
+            let placed = match node.attribute("transform") {
+                Some(text) => outer * transform(text).map_err(place)?,
+                None => outer,
+            };
+            match name {
+                "svg" | "use" | "text" => {
+                    let why = "it is not read; turn it into paths (unlink clones, convert text)";
+                    return Err(place(why.to_string()));
+                }
+                "g" | "a" | "switch" => waiting.extend(children(&node, placed)),
+                _ => {
+                    let tolerance = SHARES[0] * tolerance / scale(&placed);
+                    if let Some(path) = drawn(&node, tolerance).map_err(place)? {
+                        lines.add(&(placed * path)).map_err(place)?;
+                    }
                 }
             }
         }
+        let found = Some(lines.found).filter(|found| !found.is_empty());
+        found.ok_or_else(|| told("it holds no lines".to_string()))
     }
-    let found = Some(lines.found).filter(|found| !found.is_empty());
-    found.ok_or_else(|| told("it holds no lines".to_string()))
 }
 
 /// Children in such an order that they are taken from the end as they are drawn.

@@ -83,10 +83,8 @@ pub(crate) struct ImposedCourse<'a> {
 impl Translate {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
         let ramp = self.ramp.map(|r| (r.speed, r.over));
-        let sine = self
-            .sine
-            .as_ref()
-            .map(|s| s.oscillation.course(s.amplitude));
+        let sine = self.sine.as_ref();
+        let sine = sine.map(|s| s.oscillation.course(s.amplitude));
         ImposedCourse::new(self.speed, ramp, sine, &self.rows, "m")
     }
 }
@@ -94,10 +92,8 @@ impl Translate {
 impl Rotation {
     pub(crate) fn given(&self) -> ImposedCourse<'_> {
         let ramp = self.ramp.map(|r| (r.speed, r.over));
-        let sine = self
-            .sine
-            .as_ref()
-            .map(|s| s.oscillation.course(s.amplitude));
+        let sine = self.sine.as_ref();
+        let sine = sine.map(|s| s.oscillation.course(s.amplitude));
         ImposedCourse::new(self.speed, ramp, sine, &self.rows, "rad")
     }
 }

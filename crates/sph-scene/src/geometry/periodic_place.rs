@@ -1,5 +1,6 @@
 //! A region in a box that may be periodic: depths across the period, where lattices start.
 
+use crate::geometry::shapes::axes_across;
 use crate::{Polygon, Region, Shape};
 
 /// A relative length that counts as rounding.
@@ -10,7 +11,8 @@ pub(crate) struct PeriodicRegion<'a, const D: usize> {
     base: Part<'a, D>,
     cuts: Vec<Part<'a, D>>,
     periods: [Option<[f64; 2]>; D],
-    shifts: Vec<[f64; D]>,
+    /// Shifts to all images, the first of them none.
+    pub shifts: Vec<[f64; D]>,
 }
 
 /// A shape, and the axes along which it fills the period: its surfaces there are none.
@@ -41,11 +43,6 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
     /// Axes along which the region fills the period.
     pub fn spans(&self) -> [bool; D] {
         self.base.1
-    }
-
-    /// Shifts to all images, the first of them none.
-    pub fn shifts(&self) -> &[[f64; D]] {
-        &self.shifts
     }
 
     /// Lower and upper corner of the box around the region, m.
@@ -81,9 +78,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
                 axis,
                 ends,
             } if spanned => {
-                let mut rest = (0..D).filter(|k| k != axis);
-                let axes = std::array::from_fn(|_| rest.next().unwrap_or(0));
-                let side = self.across(polygon, spans, axes, x);
+                let side = self.across(polygon, spans, axes_across(*axis), x);
                 let end = |s: &[f64; D]| {
                     let at = x[*axis] - s[*axis];
                     (at - ends[0]).min(ends[1] - at)
@@ -109,7 +104,7 @@ impl<'a, const D: usize> PeriodicRegion<'a, D> {
 
     /// Distance from the sides of a polygon in the plane of two axes that are no ends of the period, positive inside.
     fn across(&self, polygon: &Polygon, spans: [bool; D], axes: [usize; 2], x: &[f64; D]) -> f64 {
-        let [lo, hi] = sph_core::bounds(polygon.points().iter().copied());
+        let [lo, hi] = polygon.bounds();
         let sealed = |a: [f64; 2], b: [f64; 2]| {
             (0..2).any(|k| {
                 let near = ROUNDING * (hi[k] - lo[k]);

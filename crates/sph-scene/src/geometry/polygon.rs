@@ -7,7 +7,8 @@ use sph_core::{BoxTree, bounds};
 /// A closed polygon in the plane of the first two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
-    points: Vec<[f64; 2]>,
+    /// Corners, m.
+    pub(crate) points: Vec<[f64; 2]>,
 }
 
 impl Polygon {
@@ -16,9 +17,9 @@ impl Polygon {
         Polygon { points }
     }
 
-    /// Corners, m.
-    pub fn points(&self) -> &[[f64; 2]] {
-        &self.points
+    /// Lower and upper corner of the box around it, m.
+    pub(crate) fn bounds(&self) -> [[f64; 2]; 2] {
+        bounds(self.points.iter().copied())
     }
 
     /// Edges as pairs of corners.

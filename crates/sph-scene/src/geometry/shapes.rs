@@ -112,7 +112,7 @@ impl<const D: usize> Shape<D> {
                 axis,
                 ends,
             } => {
-                let side = polygon.depth(across(x, *axis));
+                let side = polygon.depth(axes_across(*axis).map(|k| x[k]));
                 side.min(x[*axis] - ends[0]).min(ends[1] - x[*axis])
             }
         }
@@ -172,7 +172,7 @@ impl<const D: usize> Shape<D> {
                 (lo, [f64::INFINITY; D])
             }
             Shape::Polygon(polygon) => {
-                let corners = sph_core::bounds(polygon.points().iter().copied());
+                let corners = polygon.bounds();
                 let [lo, hi] = corners.map(|x| std::array::from_fn(|k| x[k.min(1)]));
                 (lo, hi)
             }
@@ -193,7 +193,7 @@ impl<const D: usize> Shape<D> {
                 axis,
                 ends,
             } => {
-                let [low, high] = sph_core::bounds(polygon.points().iter().copied());
+                let [low, high] = polygon.bounds();
                 let of = |flat: [f64; 2], end: f64| {
                     let side = |k: usize| flat[k - usize::from(k > *axis)];
                     std::array::from_fn(|k| if k == *axis { end } else { side(k) })
@@ -223,10 +223,9 @@ fn rim<const D: usize>(from: &[f64; D], to: &[f64; D], radius: f64) -> [f64; D] 
     std::array::from_fn(|k| radius * (1.0 - ((to[k] - from[k]) / length).powi(2)).max(0.0).sqrt())
 }
 
-/// The coordinates of a point across an axis, in their order.
-pub(crate) fn across<const D: usize>(x: &[f64; D], axis: usize) -> [f64; 2] {
-    let mut rest = (0..D).filter(|k| *k != axis).map(|k| x[k]);
-    std::array::from_fn(|_| rest.next().unwrap_or(0.0))
+/// The two axes of space across an axis, in their order.
+pub(crate) fn axes_across(axis: usize) -> [usize; 2] {
+    [[1, 2], [0, 2], [0, 1]][axis]
 }
 
 /// Distance of a point from an ellipse about the origin, m, positive inside.

@@ -137,29 +137,6 @@ pub(crate) fn extrusion(
     surface.finish()
 }
 
-/// Corners of a right triangle in the plane of two axes, its right angle at the high end.
-///
-/// `lo` and `hi` bound it; the first coordinate is along the axis of `rise` if `rise_first`.
-pub(crate) fn ramp(
-    lo: [f64; 2],
-    hi: [f64; 2],
-    rise_first: bool,
-    rise: Face,
-    up: Face,
-) -> Vec<[f64; 2]> {
-    let (r, u) = if rise_first { (0, 1) } else { (1, 0) };
-    let ends = |k: usize, upper: bool| match upper {
-        true => (lo[k], hi[k]),
-        false => (hi[k], lo[k]),
-    };
-    let ((near, far), (low, high)) = (ends(r, rise.upper()), ends(u, up.upper()));
-    let place = |along: f64, height: f64| match rise_first {
-        true => [along, height],
-        false => [height, along],
-    };
-    vec![place(near, low), place(far, low), place(far, high)]
-}
-
 /// An icosahedron of which every edge has `parts` parts, drawn onto a sphere.
 pub(crate) fn sphere(centre: [f64; 3], radius: f64, parts: usize) -> Facets {
     let golden = 0.5 * (1.0 + 5f64.sqrt());

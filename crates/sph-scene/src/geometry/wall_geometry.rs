@@ -295,14 +295,21 @@ impl SphereWall {
 }
 
 impl Wedge {
-    /// The triangle in the plane of `rise` and `up`, as coordinates in the order of the axes.
+    /// The triangle in the plane of `rise` and `up`, its right angle at the high end, as coordinates in the order of the
+    /// axes.
     fn plane(&self, up: Face) -> Vec<[f64; 2]> {
-        let up = self.up.unwrap_or(up);
-        let rise_first = self.rise.axis() < up.axis();
-        let mut axes = [self.rise.axis(), up.axis()];
-        axes.sort_unstable();
-        let of = |corner: &[f64]| axes.map(|k| corner.get(k).copied().unwrap_or(0.0));
-        solid::ramp(of(&self.lo), of(&self.hi), rise_first, self.rise, up)
+        let (rise, up) = (self.rise, self.up.unwrap_or(up));
+        // Where the box begins and ends in a direction.
+        let ends = |face: Face| {
+            let [lo, hi] = [&self.lo, &self.hi].map(|c| c.get(face.axis()).copied().unwrap_or(0.0));
+            if face.upper() { [lo, hi] } else { [hi, lo] }
+        };
+        let ([near, far], [low, high]) = (ends(rise), ends(up));
+        let place = |along: f64, height: f64| match rise.axis() < up.axis() {
+            true => [along, height],
+            false => [height, along],
+        };
+        vec![place(near, low), place(far, low), place(far, high)]
     }
 }
 

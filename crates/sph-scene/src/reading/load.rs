@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use scene_text::{Diagnostic, Override, Source, named_files, read_text};
 use sph_core::{SceneProblem, conform, kinds};
@@ -36,15 +36,9 @@ impl Loaded {
         }
     }
 
-    /// Every file that the scene names, in the order of its keys.
-    pub fn files(&self) -> Vec<DataFile> {
-        let placed = |(key, named): (String, String)| DataFile {
-            path: self.source.resolve(&key, &named),
-            key,
-            named,
-        };
-        let files = named_files(&self.resolved()).into_iter();
-        files.map(placed).collect()
+    /// Every file that the scene names, after the dotted path of its key, in the order of the keys.
+    pub fn files(&self) -> Vec<(String, String)> {
+        named_files(&self.resolved())
     }
 }
 
@@ -190,15 +184,4 @@ fn add_new(problems: &mut Vec<SceneProblem>, more: Vec<SceneProblem>) {
             problems.push(problem);
         }
     }
-}
-
-/// A file that a scene names: walls, motions, references, probes.
-#[derive(Clone, Debug)]
-pub struct DataFile {
-    /// Dotted path of the key.
-    pub key: String,
-    /// The file as the scene names it.
-    pub named: String,
-    /// Path of the file, if the scene may name it, or why it may not.
-    pub path: Result<PathBuf, String>,
 }

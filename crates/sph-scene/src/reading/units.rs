@@ -106,19 +106,3 @@ fn kinematic(value: &Value) -> Option<f64> {
         Err(_) => parse_quantity(text, KINEMATIC).ok(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_what_is_in_square_metres_per_second_is_kinematic() {
-        let of = |text: &str| kinematic(&Value::String(text.into()));
-        assert_eq!(of("1 mm^2/s"), Some(1e-6));
-        assert_eq!(of("2 m²/s"), Some(2.0));
-        for other in ["1 mPa s", "1e-3", "1 m/s", "thick"] {
-            assert_eq!(of(other), None, "{other}");
-        }
-        assert_eq!(kinematic(&Value::Float(1.0)), None);
-    }
-}

@@ -1,8 +1,8 @@
 //! How walls move.
 
-use super::common::{says, scene};
+use super::common::{scene, with};
 use sph_core::course::{Course, Translation};
-use sph_scene::{Courses, SlipCondition};
+use sph_scene::Courses;
 use tempfile::tempdir;
 
 fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses<2>, String> {
@@ -63,39 +63,9 @@ fn units_of_courses_and_of_columns_reach_si() {
 
 #[test]
 fn courses_come_from_files() {
-    let folder = tempdir().unwrap();
-    let file = |text: &str| std::fs::write(folder.path().join("gate.csv"), text).unwrap();
+    let folder = with("gate.csv", "t,s\n0,0\n# faster\n0.1,0.02\n0.2,0.5\n");
     let text = "translate = { along = [0, 1], file = \"gate.csv\" }";
-    file("t,s\n0,0\n# faster\n0.1,0.02\n0.2,0.5\n");
     let found = courses(folder.path(), text).unwrap();
     let rows = [[0.0, 0.0], [0.1, 0.02], [0.2, 0.5]].into();
     assert_eq!(found.translations[0].course, Course::Table { rows });
-    for (content, message) in [
-        ("t,s\n0,0\n", "holds 1 rows, and a course needs at least 2"),
-        (
-            "0,0\n1,1\n1,2\n",
-            "line 3: times must rise, 1 s follows 1 s",
-        ),
-        ("0,0\n1,x\n", "line 2: `x` is not a number"),
-    ] {
-        file(content);
-        let told = courses(folder.path(), text).unwrap_err();
-        says(
-            &told,
-            &format!("^wall.w.motion.translate.file: | {message}"),
-        );
-    }
-    std::fs::remove_file(folder.path().join("gate.csv")).unwrap();
-    let turn = "rotate = { centre = [0, 0], file = \"gate.csv\" }";
-    let told = courses(folder.path(), turn).unwrap_err();
-    says(&told, "^wall.w.motion.rotate.file: cannot read");
-}
-
-#[test]
-fn partial_slip_has_a_length() {
-    let folder = tempdir().unwrap();
-    let text = "box = [[0, 0], [1, 1]]\ncondition = \"partial-slip\"\nslip_length = \"2 cm\"";
-    let wall = &scene(folder.path(), 2, text).wall["w"];
-    let slip = (SlipCondition::PartialSlip, Some(0.02));
-    assert_eq!((wall.condition, wall.slip_length), slip);
 }

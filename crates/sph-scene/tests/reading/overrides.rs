@@ -1,10 +1,6 @@
 //! Values put on top of a scene, and mistakes in them.
 
-use std::path::Path;
-
-use sph_scene::{Diagnostic, Loaded, Origin, Override, Refused, load, parse};
-
-use super::common::{says, with as folder_with};
+use sph_scene::{Diagnostic, Loaded, Origin, Override, Refused, parse};
 
 const SCENE: &str = r#"title = "Pool"
 dimension = 2
@@ -99,15 +95,6 @@ fn a_mistake_of_the_file_stays_in_the_file() {
 }
 
 #[test]
-fn only_an_override_may_name_an_absolute_path() {
-    let absolute: &[&str] = &["reference.P1.file=/data/p1.csv"];
-    for (sets, path) in [(absolute, "/data/p1.csv"), (&[], "scenes/p1.csv")] {
-        let scene = with(sets).unwrap().scene;
-        assert_eq!(scene.reference["P1"].path.as_deref(), Some(Path::new(path)));
-    }
-}
-
-#[test]
 fn a_problem_found_later_is_shown_where_the_plugin_stands() {
     let loaded = with(&[]).unwrap();
     let choice = loaded.scene.choice_in("rheology", "water").unwrap();
@@ -120,22 +107,4 @@ fn a_problem_found_later_is_shown_where_the_plugin_stands() {
         shown[0].to_string(),
         "scenes/pool.toml:13:1: phase.water.rheology.newtonian.viscosity: must be more than 2"
     );
-}
-
-#[test]
-fn files_that_are_too_long_or_no_text_are_refused() {
-    let long = "# x\n".repeat(1 << 21);
-    for (name, content, told) in [
-        ("scene.toml", long.as_bytes(), "longer than 4 MiB"),
-        (
-            "scene.toml",
-            &b"a\xff"[..],
-            "byte 1, in line 1, is not UTF-8",
-        ),
-        ("other.toml", &b""[..], "cannot read"),
-    ] {
-        let file = folder_with(name, content);
-        let refused = load(&file.path().join("scene.toml"), &[]).unwrap_err();
-        says(&refused.to_string(), told);
-    }
 }

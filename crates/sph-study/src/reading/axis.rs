@@ -68,7 +68,7 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
     let mut axes: Vec<StudyAxis> = Vec::new();
     for (k, axis) in given.iter().enumerate() {
         let at = format!("vary[{k}]");
-        match one(axis, &at) {
+        match one(axis.name.as_ref(), &axis.places, &at) {
             Ok(axis) if axes.iter().any(|a| a.name == axis.name) => {
                 let message = format!("there is another axis called `{}`", axis.name);
                 problems.push(SceneProblem::new(at, message));
@@ -83,17 +83,22 @@ pub fn axes(given: &[file::AxisTable]) -> Result<Vec<StudyAxis>, Vec<SceneProble
     }
 }
 
-/// One axis of a study file, with its path.
+/// One axis of a study file, by its name, if it has one, and its path.
 ///
 /// # Errors
 /// Its first mistake, with its place in the file.
-pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, SceneProblem> {
+pub(crate) fn one(
+    name: Option<&String>,
+    places: &file::Places,
+    at: &str,
+) -> Result<StudyAxis, SceneProblem> {
+    let labels = places.labels.as_ref();
     let problem = |key: &str, message: &str| SceneProblem::new(format!("{at}{key}"), message);
-    let (name, choices): (String, Vec<Choice>) = match (&axis.key, &axis.values, &axis.entries) {
+    let given = (&places.key, &places.values, &places.entries);
+    let (name, choices): (String, Vec<Choice>) = match given {
         (Some(key), Some(values), None) => {
             let last = || key.rsplit('.').next().unwrap_or(key).to_string();
-            let name = axis.name.clone().unwrap_or_else(last);
-            let labels = axis.labels.as_ref();
+            let name = name.cloned().unwrap_or_else(last);
             if labels.is_some_and(|l| l.len() != values.len()) {
                 let why = "there must be one label for every value";
                 return Err(problem(".labels", why));
@@ -113,12 +118,11 @@ pub(crate) fn one(axis: &file::AxisTable, at: &str) -> Result<StudyAxis, ScenePr
             (name.clone(), choices?)
         }
         (None, None, Some(entries)) => {
-            if axis.labels.is_some() {
+            if labels.is_some() {
                 return Err(problem(".labels", "entries have names, not labels"));
             }
-            let name = axis.name.clone();
             let missing = "the key `name` is missing: what tables and plots call this axis";
-            let name = name.ok_or_else(|| problem("", missing))?;
+            let name = name.cloned().ok_or_else(|| problem("", missing))?;
             let choice = |(k, entry): (usize, &file::Entry)| {
                 let at = format!("{at}.entries[{k}]");
                 let named = entry.scene.clone();

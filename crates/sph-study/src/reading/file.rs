@@ -81,9 +81,17 @@ pub struct MeansPlot {
 pub struct AxisTable {
     /// Name in tables and plots; the last part of `key` if left out.
     pub name: Option<String>,
+    /// Its places.
+    #[serde(flatten)]
+    pub places: Places,
+}
+
+/// Places on an axis.
+#[parameters]
+pub struct Places {
     /// Key of the scene that takes the `values`.
     pub key: Option<String>,
-    /// Values of `key`.
+    /// Values of `key`, along an `axis` from harmless to absurd.
     #[schemars(with = "Option<Vec<Json>>")]
     pub values: Option<Vec<Value>>,
     /// Names of the `values`, as many.
@@ -108,15 +116,9 @@ pub struct Ladder {
     #[parameter(default)]
     #[schemars(with = "SceneValues")]
     pub set: Table,
-    /// Key of the scene that takes the `values`.
-    pub key: Option<String>,
-    /// Values of `key`, from harmless to absurd.
-    #[schemars(with = "Option<Vec<Json>>")]
-    pub values: Option<Vec<Value>>,
-    /// Names of the `values`, as many.
-    pub labels: Option<Vec<String>>,
-    /// Instead of `key` and `values`: named entries, each with the scene values that it sets.
-    pub entries: Option<Vec<Entry>>,
+    /// Its places.
+    #[serde(flatten)]
+    pub places: Places,
     /// Label of the last value that must survive.
     #[schemars(with = "Option<Json>")]
     pub must: Option<Value>,

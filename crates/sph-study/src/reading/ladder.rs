@@ -124,7 +124,12 @@ fn one(
 ) -> Result<(Ladder, SceneText, [StudyAxis; 3]), Vec<SceneProblem>> {
     let problem =
         |key: &str, message: String| vec![SceneProblem::new(format!("{at}{key}"), message)];
-    let values = values(given, at).map_err(|problem| vec![problem])?;
+    let values = axis::one(Some(&given.name), &given.places, at);
+    let mut values = values.map_err(|problem| vec![problem])?;
+    for choice in &mut values.choices {
+        // Labels alone name folders.
+        choice.slug.clone_from(&choice.label);
+    }
     let labels: Vec<String> = values.choices.iter().map(|c| c.label.clone()).collect();
     let must = given.must.as_ref().map(|must| {
         let must = label(must);
@@ -167,22 +172,6 @@ fn one(
         to_the_end: given.to_the_end,
     };
     Ok((ladder, scene, axes))
-}
-
-/// The values of an axis, whose labels alone name folders.
-fn values(given: &file::Ladder, at: &str) -> Result<StudyAxis, SceneProblem> {
-    let plain = file::AxisTable {
-        name: Some(given.name.clone()),
-        key: given.key.clone(),
-        values: given.values.clone(),
-        labels: given.labels.clone(),
-        entries: given.entries.clone(),
-    };
-    let mut values = axis::one(&plain, at)?;
-    for choice in &mut values.choices {
-        choice.slug.clone_from(&choice.label);
-    }
-    Ok(values)
 }
 
 /// The combinations of plugins that are for an axis; one without a name if there are none.

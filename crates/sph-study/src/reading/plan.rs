@@ -30,7 +30,7 @@ pub struct Study {
     pub(crate) set: Vec<String>,
     /// The variants, in the order in which they run.
     pub variants: Vec<Variant>,
-    source: Source,
+    pub(crate) source: Source,
 }
 
 impl Study {
@@ -95,14 +95,9 @@ impl Study {
         Ok(study)
     }
 
-    /// Text of the study file.
-    pub fn definition(&self) -> &str {
-        self.source.text()
-    }
-
     /// Variants that run one after the other because each may keep the next from being run, by their numbers.
     pub(crate) fn chains(&self) -> Vec<Vec<usize>> {
-        let chain = |k: &usize| self.variants[*k].rung.map(|rung| rung.chain());
+        let chain = |k: &usize| self.variants[*k].rung.map(|r| (r.ladder, r.combination));
         let all: Vec<usize> = (0..self.variants.len()).collect();
         let chains = all.chunk_by(|a, b| chain(a).is_some() && chain(a) == chain(b));
         chains.map(<[usize]>::to_vec).collect()

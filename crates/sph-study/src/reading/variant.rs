@@ -93,13 +93,6 @@ pub struct Rung {
     pub value: usize,
 }
 
-impl Rung {
-    /// Ladder and combination, common to variants that run one after the other.
-    pub fn chain(&self) -> (usize, usize) {
-        (self.ladder, self.combination)
-    }
-}
-
 /// The text of a scene and the file name against which it names other files.
 #[derive(Clone, Debug)]
 pub struct SceneText {
