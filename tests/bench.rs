@@ -8,6 +8,17 @@ use tempfile::TempDir;
 
 use crate::{FinalState, Says, Series};
 
+/// A folder for the program of the tests, with `scene.toml` in it if a scene is given.
+#[macro_export]
+macro_rules! bench {
+    () => {
+        $crate::Bench::new(env!("CARGO_BIN_EXE_sph-under-test"))
+    };
+    ($scene:expr $(,)?) => {
+        $crate::Bench::with(env!("CARGO_BIN_EXE_sph-under-test"), $scene)
+    };
+}
+
 /// A temporary folder in which the program is called.
 pub struct Bench {
     program: &'static str,
@@ -28,7 +39,7 @@ pub struct Outcome {
 }
 
 impl Bench {
-    /// A folder for a program, given as `env!("CARGO_BIN_EXE_sph-under-test")`.
+    /// A folder for a program; [`bench!`](crate::bench) names it.
     pub fn new(program: &'static str) -> Self {
         Bench {
             program,

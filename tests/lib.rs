@@ -23,7 +23,10 @@ pub use scenes::{
 };
 pub use series::Series;
 pub use state::{FinalState, files_with_extension};
-pub use texts::{Refusal, Says, binary_stl, close, exchanged, line_of, near, one_line, refusals};
+pub use texts::{
+    Refusal, Says, assembly_refuses, below, binary_stl, close, exchanged, line_of, near, one_line,
+    refusals, within,
+};
 
 /// A dam break in a box: 180 particles, some hundred steps, a fraction of a second.
 pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");

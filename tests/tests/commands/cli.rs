@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
-use sph_tests::{Bench, DAM_BREAK, Outcome, PERIODIC, Says, close, one_line};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{DAM_BREAK, Outcome, PERIODIC, Says, bench, close, one_line};
 
 fn json(outcome: &Outcome) -> Value {
     serde_json::from_str(&outcome.out).unwrap_or_else(|e| panic!("{e}\n{}", outcome.out))
@@ -17,7 +15,7 @@ fn text(value: &Value) -> &str {
 
 #[test]
 fn every_command_has_help_with_what_it_leaves_behind() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let all = bench.done("--help");
     assert!(all.out.contains("Exit codes"), "{}", all.out);
     for command in [
@@ -33,7 +31,7 @@ fn every_command_has_help_with_what_it_leaves_behind() {
 
 #[test]
 fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let kinds = json(&bench.done("plugins --json"));
     for kind in kinds.as_array().expect("kinds") {
         let kind_name = text(&kind["kind"]);
@@ -66,7 +64,7 @@ fn plugins_are_listed_by_kind_and_shown_with_their_parameters() {
 
 #[test]
 fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let kind = json(&bench.done("plugins rheology --json"));
     for law in kind["plugins"].as_array().expect("plugins") {
         let name = text(&law["name"]);
@@ -121,7 +119,7 @@ fn laws_are_drawn_whatever_they_are_and_mistakes_leave_no_file() {
 
 #[test]
 fn the_schema_is_json_and_mentions_every_plugin() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let of_particles = bench.done("schema");
     let of_grains = bench.done("schema --grains");
     assert!(json(&of_particles)["properties"]["numerics"].is_object());
@@ -155,7 +153,7 @@ fn shipped() -> Vec<std::path::PathBuf> {
 /// As a file, with a trial of its first steps, and from the program, where its data have to be found.
 #[test]
 fn every_shipped_scene_passes_check_as_a_file_and_explains_itself_from_the_program() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let files = shipped();
     let good = |files: &[std::path::PathBuf]| {
         for file in files {
@@ -178,7 +176,7 @@ fn every_shipped_scene_passes_check_as_a_file_and_explains_itself_from_the_progr
 
 #[test]
 fn scenes_lists_every_shipped_scene_under_its_theme_with_its_time() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let listed = json(&bench.done("scenes --json"));
     let listed = listed.as_array().expect("an array");
     assert_eq!(listed.len(), shipped().len());
@@ -207,7 +205,7 @@ fn scenes_lists_every_shipped_scene_under_its_theme_with_its_time() {
 
 #[test]
 fn a_new_scene_is_good_and_never_overwrites() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     bench.done("new pool");
     bench.done("check pool.toml");
     bench.done("run pool.toml --quiet --set run.end=0.05");
@@ -221,7 +219,7 @@ fn a_new_scene_is_good_and_never_overwrites() {
 
 #[test]
 fn a_run_tells_a_program_what_the_summary_says() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let outcome = bench.done("run scene.toml --json --set run.end=0.02");
     let told = json(&outcome);
     let keys = "schema_version scene status plugins dimension particles steps simulated_seconds wall_seconds \
@@ -240,7 +238,7 @@ fn a_run_tells_a_program_what_the_summary_says() {
 
 #[test]
 fn a_run_tells_a_person_what_came_out_and_where_it_is() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set = "--set run.end=0.02 --set output.picture=pressure";
     let outcome = bench.done(&format!("run scene.toml {set}"));
     outcome
@@ -253,7 +251,7 @@ fn a_run_tells_a_person_what_came_out_and_where_it_is() {
 
 #[test]
 fn check_counts_and_estimates_without_writing() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let told = json(&bench.done("check scene.toml --json --threads 3"));
     assert_eq!(told["threads"], 3);
     assert!(told["particles"].as_u64() > Some(100) && told["wall_points"].as_u64() > Some(50));
@@ -269,7 +267,7 @@ fn check_counts_and_estimates_without_writing() {
 
 #[test]
 fn explain_shows_that_nothing_unused_is_allocated() {
-    let bench = Bench::with(PROGRAM, PERIODIC);
+    let bench = bench!(PERIODIC);
     let told = json(&bench.done("explain scene.toml --json"));
     let columns = told["fields"].as_array().expect("columns");
     let columns: Vec<&str> = columns.iter().map(|f| text(&f["name"])).collect();
@@ -311,7 +309,7 @@ body.right = { phase = "water", box = [[0.2, 0.0], [0.4, 0.3]] }
 
 #[test]
 fn bodies_a_third_of_a_spacing_off_are_remarked_upon() {
-    let bench = Bench::with(PROGRAM, TWO_BODIES);
+    let bench = bench!(TWO_BODIES);
     let told = |right: &str| {
         let outcome = bench.done(&format!("check scene.toml --set body.right.box={right}"));
         one_line(&outcome.out)
@@ -328,7 +326,7 @@ fn bodies_a_third_of_a_spacing_off_are_remarked_upon() {
 
 #[test]
 fn check_draws_a_scene_before_any_run_and_says_where() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let told = bench.done("check scene.toml --picture drawn.png").out;
     assert!(told.ends_with("picture\n  drawn.png\n"), "{told}");
     let png = std::fs::read(bench.path("drawn.png")).expect("a picture");

@@ -52,10 +52,7 @@ fn a_body_does_not_feel_a_periodic_border() {
             let here = courses(&field, input, &format!("{} {more}", at(x, [0.6, 0.9])));
             let apart = there.iter().flatten().zip(here.iter().flatten());
             let most = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(
-                most < 1e-6,
-                "{input} {more}: {most:e} m or rad apart at {x} m"
-            );
+            assert!(most < 1e-6, "{input} {more}: {most:e} apart at {x} m");
         }
     }
 }

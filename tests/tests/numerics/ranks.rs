@@ -1,8 +1,6 @@
 //! A scene that is divided between ranks gives the bits of one process.
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL, bench};
 
 /// A run's last state, after a run with these arguments.
 fn ran(bench: &Bench, out: &str, arguments: &str) -> FinalState {
@@ -13,7 +11,7 @@ fn ran(bench: &Bench, out: &str, arguments: &str) -> FinalState {
 
 /// A folder with the results that all ranks agree on, those of one in `r1`.
 fn same_on_all_ranks(scene: &str, set: &str) -> Bench {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     let one = ran(&bench, "r1", set);
     for ranks in [2, 3, 4] {
         let arguments = format!("--ranks {ranks} {set}");
@@ -87,10 +85,7 @@ fn sums_over_all_ranks_do_not_depend_on_their_number() {
 fn outlets_give_the_same_bits() {
     let scene = format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.3\n");
     let bench = same_on_all_ranks(&scene, "--set run.end=0.3");
-    assert!(
-        bench.series("r1").last("outlet.end.water") > 0.0,
-        "somebody left"
-    );
+    assert!(bench.series("r1").last("outlet.end.water") > 0.0);
 }
 
 /// Particles are born at faces and leave through others, on whatever rank.
@@ -121,7 +116,7 @@ fn columns_kept_within_a_step_follow_their_particles() {
 #[test]
 fn solves_agree_to_their_tolerance() {
     let scene = format!("{DAM_BREAK}\n[implicit-viscosity.backward-euler]\n");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let (steps, viscosity) = (20.0, 50.0);
     let set = format!(
         "--set phase.water.rheology.newtonian.viscosity={viscosity} --set run.max_steps={steps}"
@@ -151,7 +146,7 @@ fn solves_agree_to_their_tolerance() {
 /// A rank that fails takes the others back with it; in the end all give up, and the first tells why.
 #[test]
 fn ranks_fail_together() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set = "--set numerics.density_bounds=[0.99,1.005] --set run.retries=2";
     let told = |ranks: u32| {
         let failed = bench.failed(&format!(
@@ -172,7 +167,7 @@ fn ranks_fail_together() {
 
 #[test]
 fn a_run_goes_on_with_another_number_of_ranks() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = ran(&bench, "whole", "");
     let out = "run scene.toml --quiet --out parts --threads 1";
     bench.failed(&format!("{out} --ranks 4 --set run.max_steps=40"));
@@ -191,7 +186,7 @@ fn indivisible_flows_are_refused_before_any_output() {
         (sweeps.as_str(), "2", whole),
         (DAM_BREAK, coarse, "some would own nothing"),
     ] {
-        let bench = Bench::with(PROGRAM, scene);
+        let bench = bench!(scene);
         let refused = bench.refused(&format!("run scene.toml --out r --ranks {ranks}"));
         refused.says(why);
         assert!(!bench.path("r").exists(), "{why}");
@@ -208,7 +203,7 @@ fn mpirun_is_left_out() {
 #[cfg(feature = "mpi")]
 #[test]
 fn mpirun_gives_the_same_bits() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let one = ran(&bench, "r1", "");
     for ranks in [1, 2, 4] {
         let out = format!("m{ranks}");
@@ -223,7 +218,7 @@ fn mpirun_gives_the_same_bits() {
 #[test]
 fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
     use std::time::{Duration, Instant};
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = ran(&bench, "whole", "");
     let mut job = mpirun(&bench, 4, "killed").spawn().expect("mpirun");
     let checkpoint = bench.path("killed").join("checkpoint.sph");

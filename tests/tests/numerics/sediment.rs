@@ -1,9 +1,7 @@
 //! Beds that a flow moves: laws, the balance of the grains, the same bits, refusals.
 
 use sph_soil::sediment::Grains;
-use sph_tests::{Bench, Says, Series, close, refusal, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, Says, Series, bench, close, refusal, refusals};
 
 /// Water over a bed along x with a bump in the middle.
 pub(super) const CHANNEL: &str = r#"
@@ -90,7 +88,7 @@ fn curve(bench: &Bench, file: &str) -> Series {
 /// The flux at every place is 8 (θ − θ_c)^1.5 √((s − 1) g d³) of the Shields number there, the threshold Soulsby's on the slope.
 #[test]
 fn the_flux_is_that_of_the_law() {
-    let bench = Bench::with(PROGRAM, CHANNEL);
+    let bench = bench!(CHANNEL);
     bench.done("run scene.toml --quiet --out out");
     let grains = Grains {
         diameter: 1e-3,
@@ -116,7 +114,7 @@ fn the_flux_is_that_of_the_law() {
 #[test]
 fn grains_are_neither_made_nor_lost() {
     for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
-        let bench = Bench::with(PROGRAM, scene);
+        let bench = bench!(scene);
         bench.done("run scene.toml --quiet --out out");
         let volume = column(&bench, "out", "bed.volume");
         let moved = curve(&bench, "out/curves/bed_0001.csv");
@@ -126,7 +124,7 @@ fn grains_are_neither_made_nor_lost() {
         assert!(worst < 1e-15, "{name}: {worst:e}");
     }
     let part = CHANNEL.replace("rock = -0.1", "from = [0.1]\nto = [0.3]");
-    let bench = Bench::with(PROGRAM, &part);
+    let bench = bench!(&part);
     bench.done("run scene.toml --quiet --out out");
     let [volume, fed] = ["bed.volume", "bed.fed"].map(|name| column(&bench, "out", name));
     let (grown, fed) = (volume.last().expect("rows"), fed.last().expect("rows"));
@@ -138,7 +136,7 @@ fn grains_are_neither_made_nor_lost() {
 #[test]
 fn beds_have_the_same_bits_on_threads_and_after_an_interruption() {
     for scene in [CHANNEL, &in_space()] {
-        Bench::with(PROGRAM, scene).same_bits("", 7);
+        bench!(scene).same_bits("", 7);
     }
 }
 

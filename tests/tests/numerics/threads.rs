@@ -1,11 +1,9 @@
 //! The number of threads changes the speed and not one bit of the result.
 
-use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, SOIL, SUB_STEPS, soil_with};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{DAM_BREAK, END_OF_THE_STEP, PADDLE, SOIL, SUB_STEPS, bench, soil_with};
 
 fn same_for_all_threads(scene: &str, set: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     let state = |threads: u32| {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} {set}"

@@ -1,9 +1,7 @@
 //! Zones of finer particles: a flow passes them unchanged, mass follows mass, the same bits, refusals.
 
 use sph_io::Checkpoint;
-use sph_tests::{Bench, DAM_BREAK, Says, near, one_line, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, Says, bench, near, one_line, refusals};
 
 /// Zones for [`DAM_BREAK`], one within the other, both dry at first.
 const ZONES: &str = r#"
@@ -71,7 +69,7 @@ fn a_uniform_flow_passes_a_zone_unchanged() {
 }
 
 fn uniform(scene: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     bench.done("run scene.toml --quiet --out out");
     for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
         let velocity = column(&bench, file, "velocity");
@@ -86,7 +84,7 @@ fn uniform(scene: &str) {
 #[test]
 fn a_nested_zone_measures_its_own_probes() {
     let nested = dam().replace("probes = [\"front\"]\n", "") + "probes = [\"front\"]\n";
-    let bench = Bench::with(PROGRAM, &nested);
+    let bench = bench!(&nested);
     bench.done("run scene.toml --quiet --out out");
     let largest = |file: &str| {
         let place = column(&bench, file, "position");
@@ -106,7 +104,7 @@ fn a_nested_zone_measures_its_own_probes() {
 /// The mass of a zone with its band is that of the particles around that are there.
 #[test]
 fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
-    let bench = Bench::with(PROGRAM, &dam());
+    let bench = bench!(&dam());
     bench.done("run scene.toml --quiet --out out");
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
     let total = |folder: &str| -> f64 {
@@ -131,7 +129,7 @@ fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
 
 #[test]
 fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, &dam());
+    let bench = bench!(&dam());
     bench.same_bits("", 400);
     for zone in ["checkpoint-wall.sph", "checkpoint-wall-corner.sph"] {
         let [a, b] = ["one", "parts"]
@@ -143,7 +141,7 @@ fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
 /// A checkpoint of another run has no zones to begin with.
 #[test]
 fn a_run_with_zones_does_not_begin_from_another() {
-    let bench = Bench::with(PROGRAM, &dam());
+    let bench = bench!(&dam());
     bench.done("run scene.toml --quiet --out other --set run.end=1e-9");
     let refused = bench.refused("run scene.toml --quiet --out out --from other");
     refused.says("take `--from` out");
@@ -153,7 +151,7 @@ fn a_run_with_zones_does_not_begin_from_another() {
 #[test]
 fn zones_that_do_not_fit_are_refused() {
     for case in refusals(include_str!("zones.refused")) {
-        let bench = Bench::with(PROGRAM, &case.of(&dam()));
+        let bench = bench!(&case.of(&dam()));
         let refused = bench.refused(&format!("run scene.toml --quiet --out out {}", case.at));
         one_line(&refused.err).says(case.said[0]);
         assert!(!bench.path("out/series.csv").exists(), "nothing is written");
@@ -195,7 +193,7 @@ vtk = false
 /// The disc crosses the end of the period, and a quarter of its way the zone lies on both sides.
 #[test]
 fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
-    let bench = Bench::with(PROGRAM, TOWED);
+    let bench = bench!(TOWED);
     bench.done("run scene.toml --quiet --out out");
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
     // Radius with the band of two supports of the finer particles, m.
@@ -276,7 +274,7 @@ vtk = false
 /// tenth off.
 #[test]
 fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
-    let bench = Bench::with(PROGRAM, HEAVING);
+    let bench = bench!(HEAVING);
     bench.done("run scene.toml --quiet --out out");
     let series = bench.series("out");
     let (time, height) = (series.column("time"), series.column("box.y"));
@@ -300,7 +298,7 @@ fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
 
 #[test]
 fn zones_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, HEAVING);
+    let bench = bench!(HEAVING);
     bench.same_bits("", 100);
     let file = |folder: &str| format!("{folder}/checkpoint-near.sph");
     let [a, b] = ["one", "parts"].map(|folder| column(&bench, &file(folder), "density_constant"));
@@ -346,7 +344,7 @@ vtk = false
 #[test]
 fn a_pulse_of_sound_returns_from_a_zone_by_less_than_a_hundredth() {
     let pressure = |zone: &str| {
-        let bench = Bench::with(PROGRAM, &format!("{TUBE}{zone}"));
+        let bench = bench!(&format!("{TUBE}{zone}"));
         // u = U sin²(πt/T) with U = 1 cm/s, T = 40 ms.
         let (speed, time) = (0.01, 0.04);
         let way = |t: f64| {

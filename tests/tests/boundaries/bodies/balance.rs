@@ -1,9 +1,9 @@
 //! What the fluid gives a body it has no more.
 
 use sph_core::Vect;
-use sph_tests::Bench;
+use sph_tests::{Bench, below, bench};
 
-use crate::bodies::{PROGRAM, states};
+use crate::bodies::states;
 
 /// A box that is shot through a fluid without borders, and turns.
 const SHOT: &str = r#"
@@ -60,7 +60,7 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
         ("explicit", ""),
         ("dummies", " --set walls={\"dummy-particles\"={}}"),
     ] {
-        let bench = Bench::with(PROGRAM, SHOT);
+        let bench = bench!(SHOT);
         let run = "run scene.toml --quiet --out r --threads 1";
         bench.done(&format!("{run}{changes}"));
         let [fluid, body] = momenta(&bench, "r");
@@ -69,10 +69,7 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
         assert!(given > 0.3, "{name}: the fluid took {given} of it");
         for k in 0..2 {
             let lost = (fluid[k] + body[k] - start[k]).abs() / start[0];
-            assert!(
-                lost < 1e-11,
-                "{name}: {lost:e} of the momentum along axis {k} is lost"
-            );
+            below(lost, 1e-11, &format!("{name}: lost along axis {k}"));
         }
     }
 }
@@ -112,7 +109,7 @@ vtk = false
 
 #[test]
 fn in_space_momentum_stays_to_rounding_as_well() {
-    let bench = Bench::with(PROGRAM, BRICK);
+    let bench = bench!(BRICK);
     bench.done("run scene.toml --quiet --out r --threads 1");
     let folder = bench.path("r");
     let [mass, velocity] = ["mass", "velocity"].map(|name| bench.state("r").reals(name));
@@ -122,10 +119,7 @@ fn in_space_momentum_stays_to_rounding_as_well() {
         let all = mass.iter().enumerate();
         let fluid: f64 = all.map(|(i, m)| m * velocity[3 * i + k]).sum();
         let lost = (fluid + body * (state.velocity[k] - start)).abs() / body;
-        assert!(
-            lost < 1e-11,
-            "{lost:e} of the momentum along axis {k} is lost"
-        );
+        below(lost, 1e-11, &format!("lost along axis {k}"));
     }
     let speed = state.velocity[0];
     assert!(speed < 0.9, "the fluid took nothing: {speed}");

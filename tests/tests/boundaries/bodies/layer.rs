@@ -2,7 +2,7 @@
 
 use sph_boundary::{Load, Mover, MoverEntry, RigidState};
 use sph_core::plugin;
-use sph_tests::{evaluated, scene};
+use sph_tests::{close, evaluated, scene, within};
 
 /// A wall that stays, whose pressures feel an acceleration along y all the same.
 #[plugin(MoverEntry [2], "still", "stays and feels an acceleration", source: "the tests")]
@@ -69,14 +69,8 @@ fn the_force_answers_with_less_than_the_inertia_of_the_layer() {
         let answer = force(0.0, walls) - force(1.0, walls);
         let share = answer / layer;
         println!("{walls}: {share:.3}");
-        assert!(
-            share > 0.05 && share < 1.0,
-            "{walls}: A is {share:.3} of A*"
-        );
+        within(share, 0.05..1.0, &format!("{walls}: A over A*"));
         let twice = force(0.0, walls) - force(2.0, walls);
-        assert!(
-            (twice / answer - 2.0).abs() < 1e-9,
-            "{walls}: it is not linear"
-        );
+        close(twice / answer, 2.0, 1e-9, walls);
     }
 }

@@ -14,8 +14,6 @@ use std::path::Path;
 use sph_boundary::RigidState;
 use sph_tests::FinalState;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
-
 /// A box that floats in a small tank: 24 rows of 12.
 const FLOAT: &str = r#"
 title = "A box floats"

@@ -1,8 +1,6 @@
 //! Floors that follow levels from a table.
 
-use sph_tests::Bench;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{bench, close};
 
 /// Syrup at rest, 0.2 m long and 0.1 m deep, whose floor tilts by 16 mm in a second.
 const SCENE: &str = r#"title = "A floor tilts"
@@ -49,28 +47,22 @@ const LEVELS: &str =
 
 #[test]
 fn a_floor_follows_its_table_and_the_water_the_floor() {
-    let bench = Bench::with(PROGRAM, SCENE);
+    let bench = bench!(SCENE);
     bench.write("levels.csv", LEVELS);
     bench.done("run scene.toml --quiet --threads 1 --out r");
     bench.done("run scene.toml --quiet --threads 2 --out again");
     let series = bench.read("r/series.csv");
-    assert!(
-        series == bench.read("again/series.csv"),
-        "another result on two threads"
-    );
+    assert_eq!(series, bench.read("again/series.csv"));
     let series = bench.series("r");
     let difference = series.last("left") - series.last("right");
     // ρ g 16 mm, and a tenth of a spacing of water for the particles, whose surface is known no better.
     let (wanted, bound) = (1000.0 * 9.81 * 0.016, 1000.0 * 9.81 * 0.001);
-    assert!(
-        (difference - wanted).abs() < bound,
-        "{difference} Pa between the corners, {wanted} ± {bound} Pa asked"
-    );
+    close(difference, wanted, bound, "Pa between the corners");
 }
 
 #[test]
 fn tables_that_do_not_fit_are_told_with_the_nearest_name() {
-    let bench = Bench::with(PROGRAM, SCENE);
+    let bench = bench!(SCENE);
     bench.write("levels.csv", LEVELS);
     for (from, to, told) in [
         ("\"right\"]", "\"rihgt\"]", "did you mean `right`?"),

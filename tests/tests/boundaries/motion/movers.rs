@@ -1,8 +1,6 @@
 //! Walls that the fluid moves.
 
-use sph_tests::Bench;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, bench, near};
 
 /// Water between a wall and a block that slides along the floor on a spring.
 const PISTON: &str = r#"
@@ -65,22 +63,13 @@ fn displacement(bench: &Bench, folder: &str) -> f64 {
 /// Measured: 2.0 % at 2 cm, 1.0 % at 1 cm.
 #[test]
 fn a_piston_on_a_spring_comes_to_rest_where_the_water_balances_it() {
-    let bench = Bench::with(PROGRAM, PISTON);
+    let bench = bench!(PISTON);
     bench.done("run scene.toml --quiet --out out");
     let (found, expected) = (displacement(&bench, "out"), balance());
-    let off = found / expected - 1.0;
     let bound = 0.02 / (2.0 * 0.08 / (0.4 + expected));
-    assert!(
-        off.abs() < bound,
-        "at {found:.4} m for {expected:.4} m: {off:.3}"
-    );
-    let table = bench.series("out");
-    let force = table.column("piston.x");
-    let missing = force[force.len() - 1] / (4000.0 * found) - 1.0;
-    assert!(
-        missing.abs() < 0.02,
-        "force over that of the spring, less one: {missing:.4}"
-    );
+    near(found, expected, bound, "m of the piston");
+    let force = bench.series("out").last("piston.x");
+    near(force, 4000.0 * found, 0.02, "N of the spring");
 }
 
 /// The same block as a paddle that absorbs what comes back.
@@ -105,7 +94,7 @@ fn movers_of_walls_are_resumed_and_threaded_bit_for_bit() {
 
 fn resumed_and_threaded(scene: &str) {
     let short = scene.replace("end = 5.0", "end = 0.2");
-    let bench = Bench::with(PROGRAM, &short.replace("every = 0.5", "every = 0.02"));
+    let bench = bench!(&short.replace("every = 0.5", "every = 0.02"));
     bench.same_bits("", 101);
     assert!(displacement(&bench, "one") != 0.0);
 }
@@ -123,7 +112,7 @@ fn a_wall_has_one_motion_and_movers_are_checked() {
         ),
         ("mass = 40.0", "mass = 0.0", "mover.spring.mass"),
     ] {
-        let bench = Bench::with(PROGRAM, &PISTON.replace(from, to));
+        let bench = bench!(&PISTON.replace(from, to));
         bench.refused("check scene.toml").says(told);
     }
 }

@@ -1,8 +1,6 @@
 //! Pictures that are made of a run afterwards, and the distance to the surface.
 
-use sph_tests::{DAM_BREAK, Says};
-
-use crate::hands::with;
+use sph_tests::{DAM_BREAK, Says, bench};
 
 const TANK: &str = "title = \"Water at rest\"\ndimension = 2\n[run]\nend = 1e-4\n[numerics]\nspacing = 0.05\n\
     gravity = [0.0, -9.81]\nrelax = { steps = 0 }\n[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n\
@@ -29,7 +27,7 @@ fn distances(bench: &sph_tests::Bench, frame: &str) -> Vec<([f64; 3], f64)> {
 /// On a lattice the nearest surface particle stands straight above: H − y, up to what the water falls in 0.1 ms, 5·10⁻⁸ m.
 #[test]
 fn in_a_tank_it_is_the_depth_beside_walls_too() {
-    let bench = with(TANK);
+    let bench = bench!(TANK);
     bench.done("run scene.toml -q --threads 1 --out a");
     let all = distances(&bench, "a/fields/fluid_000000.vtu");
     assert_eq!(all.len(), 20 * 12);
@@ -48,7 +46,7 @@ fn in_a_drop_it_is_the_radius_less_the_place_within_a_spacing() {
         .replace("[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n", "")
         .replace("gravity = [0.0, -9.81]\n", "domain = [[-1.0, -1.0], [1.0, 1.0]]\n")
         .replace("box = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"", "disc = { centre = [0.0, 0.0], radius = 0.6 }");
-    let bench = with(&scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml -q --threads 1 --out a");
     let all = distances(&bench, "a/fields/fluid_000000.vtu");
     let off = |(x, d): &([f64; 3], f64)| d - (0.6 - x[0].hypot(x[1]));
@@ -63,13 +61,10 @@ fn without_a_surface_it_is_no_number_and_who_does_not_ask_has_no_column() {
         .replace("[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n", "")
         .replace("gravity = [0.0, -9.81]", "periodic = { x = [0, 1], y = [0, 0.6] }")
         .replace("\npressure = \"hydrostatic\"", "");
-    let bench = with(&scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml -q --threads 1 --out a");
-    assert!(
-        distances(&bench, "a/fields/fluid_000000.vtu")
-            .iter()
-            .all(|(_, d)| d.is_nan())
-    );
+    let all = distances(&bench, "a/fields/fluid_000000.vtu");
+    assert!(all.iter().all(|(_, d)| d.is_nan()));
     let told = bench.done("explain scene.toml").out;
     assert!(!told.contains("surface distance"), "{told}");
     let near = bench.call("check scene.toml --set output.fields=['surface_distanc']");
@@ -78,7 +73,7 @@ fn without_a_surface_it_is_no_number_and_who_does_not_ask_has_no_column() {
 
 #[test]
 fn streamlines_profiles_and_tracks_of_a_dam_break_are_drawn() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml -q --threads 1 --set run.end=0.2 --set output.every=0.05 --out a");
     let told = bench
         .done("draw streamlines a --out lines.png --time 0.2")

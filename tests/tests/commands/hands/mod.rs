@@ -13,15 +13,3 @@ mod mistakes;
 mod ranks;
 mod stepper;
 mod view;
-
-use sph_tests::Bench;
-
-/// An empty folder for the program.
-fn bench() -> Bench {
-    Bench::new(env!("CARGO_BIN_EXE_sph-under-test"))
-}
-
-/// A folder with a scene for the program.
-fn with(scene: &str) -> Bench {
-    Bench::with(env!("CARGO_BIN_EXE_sph-under-test"), scene)
-}

@@ -1,15 +1,15 @@
 //! A run that is killed or interrupted and resumed ends like the one that was not.
 #![cfg(unix)]
 
-use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, soil_with};
+use sph_tests::{
+    Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, bench, soil_with,
+};
 
 mod failing;
 mod identity;
 mod lock;
 mod mach;
 mod soak;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 fn uninterrupted(bench: &Bench) -> Results {
     bench.done("run scene.toml --quiet --out whole --threads 2");
@@ -29,7 +29,7 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
 
 #[test]
 fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     for time in [0.03, 0.11, 0.29] {
         let resumed = killed_and_resumed(&bench, time, 2);
@@ -40,7 +40,7 @@ fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
 #[test]
 fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
     let tables = "[pressure.implicit]\n[surface.cone-test]";
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
+    let bench = bench!(&format!("{DAM_BREAK}\n{tables}\n"));
     let whole = uninterrupted(&bench);
     assert!(whole.state.columns.contains_key("pressure"));
     let resumed = killed_and_resumed(&bench, 0.11, 1);
@@ -49,7 +49,7 @@ fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
 
 #[test]
 fn a_renormalised_surface_goes_on_where_it_was() {
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n[surface.renormalised]\n"));
+    let bench = bench!(&format!("{DAM_BREAK}\n[surface.renormalised]\n"));
     let whole = uninterrupted(&bench);
     let resumed = killed_and_resumed(&bench, 0.11, 1);
     whole.assert_same(&resumed, "with a renormalised surface");
@@ -57,7 +57,7 @@ fn a_renormalised_surface_goes_on_where_it_was() {
 
 #[test]
 fn another_number_of_threads_resumes_it_too() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     for threads in [1, 3] {
         let resumed = killed_and_resumed(&bench, 0.15, threads);
@@ -67,7 +67,7 @@ fn another_number_of_threads_resumes_it_too() {
 
 #[test]
 fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
-    let bench = Bench::with(PROGRAM, PADDLE);
+    let bench = bench!(PADDLE);
     let whole = uninterrupted(&bench);
     for time in [0.15, 0.32] {
         let resumed = killed_and_resumed(&bench, time, 2);
@@ -77,10 +77,7 @@ fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
 
 #[test]
 fn particles_that_left_by_an_outlet_stay_away_and_counted() {
-    let bench = Bench::with(
-        PROGRAM,
-        &format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),
-    );
+    let bench = bench!(&format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),);
     let whole = uninterrupted(&bench);
     assert!(whole.state.series.contains("outlet.end.water[kg]"));
     for time in [0.11, 0.29] {
@@ -92,7 +89,7 @@ fn particles_that_left_by_an_outlet_stay_away_and_counted() {
 #[test]
 fn displacements_go_on_where_they_were() {
     let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
-    let bench = Bench::with(PROGRAM, &asked);
+    let bench = bench!(&asked);
     let whole = uninterrupted(&bench);
     assert!(whole.state.columns.contains_key("displacement"));
     let resumed = killed_and_resumed(&bench, 0.11, 1);
@@ -101,7 +98,7 @@ fn displacements_go_on_where_they_were() {
 
 #[test]
 fn the_remembered_displacement_of_a_soil_is_resumed() {
-    let bench = Bench::with(PROGRAM, SOIL);
+    let bench = bench!(SOIL);
     let whole = uninterrupted(&bench);
     assert!(whole.state.columns.contains_key("stress_rotation"));
     let resumed = killed_and_resumed(&bench, 0.04, 1);
@@ -111,7 +108,7 @@ fn the_remembered_displacement_of_a_soil_is_resumed() {
 #[test]
 fn stresses_of_the_end_of_the_step_and_of_sub_steps_go_on_as_well() {
     for force in [END_OF_THE_STEP, SUB_STEPS] {
-        let bench = Bench::with(PROGRAM, &soil_with(force));
+        let bench = bench!(&soil_with(force));
         let whole = uninterrupted(&bench);
         assert!(whole.state.columns.contains_key("elastic_stress"));
         let resumed = killed_and_resumed(&bench, 0.04, 1);
@@ -121,7 +118,7 @@ fn stresses_of_the_end_of_the_step_and_of_sub_steps_go_on_as_well() {
 
 #[test]
 fn a_run_that_is_over_stays_as_it_is() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     bench.done("run scene.toml --quiet --out whole --threads 1 --resume");
     let again = Results::read(&bench.path("whole"));
@@ -141,7 +138,7 @@ fn sigterm_does_the_same() {
 }
 
 fn stopped_by(signal: &str) {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     let mut run = bench.start_until("run scene.toml --out stopped", "stopped", 0.1);
     run.signal(signal);
@@ -162,7 +159,7 @@ fn summary_number(bench: &Bench, out: &str, key: &str) -> f64 {
 
 #[test]
 fn a_run_starts_from_the_state_of_another() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.2");
     bench.done("run scene.toml --quiet --out whole");
     bench.done("run scene.toml --quiet --out rest --from half");
@@ -182,7 +179,7 @@ fn a_run_starts_from_the_state_of_another() {
 
 #[test]
 fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let run = "run scene.toml --quiet --out out";
     bench.done(&format!("{run} --set run.end=0.1 --set output.vtk=false"));
     assert!(!bench.path("out/fields.pvd").exists());
@@ -201,7 +198,7 @@ fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
 
 #[test]
 fn a_state_that_does_not_fit_is_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.02");
     let refused = |words: &str, code: i32, why: &str| {
         let outcome = bench.call(&format!("run scene.toml {words}")).ended(code);

@@ -129,10 +129,7 @@ fn required_values_survive() {
         let found = variants.iter().find(|v| v["name"] == name);
         found.and_then(|v| v["errors"]["rest"]["value"].as_f64())
     };
-    assert!(
-        error("gravity_0") < Some(1e-12),
-        "nothing may move without gravity"
-    );
+    assert!(error("gravity_0") < Some(1e-12), "it moves");
     // A run beyond Mach 0.1 says so.
     let summary = bench.json("s/variants/mach-number_0.3/summary.json");
     let advice = summary["advice"].to_string();

@@ -56,10 +56,7 @@ fn grains_are_studied_as_particles_are_and_settled_once() {
         let error = error.unwrap_or_else(|| panic!("no error: {variant}"));
         // A kick, then a drift: n − 1 steps Δt and one δ that is shorter fall by g [t² + (n − 1) Δt² + δ²]/2.
         let steps = variant["steps"].as_f64().expect("steps");
-        assert!(
-            error <= 1.0 / (steps - 1.0),
-            "{error} after {steps} steps: {variant}"
-        );
+        assert!(error <= 1.0 / (steps - 1.0), "{error} after {steps}");
         assert!(steps > 10.0, "{variant}");
     }
     // Nothing is run again, so that not even the times change.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sph_study::{SceneText, Study};
-use sph_tests::{Bench, Says, line_of};
+use sph_tests::{Bench, Says, bench, line_of};
 
 mod along;
 mod failures;
@@ -12,8 +12,6 @@ mod orders_in_time;
 mod refusals;
 mod results;
 mod scaling;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// Vortices in a small box, some ten steps long.
 const STUDY: &str = r#"title = "Vortices"
@@ -34,7 +32,7 @@ values = [0.0625, 0.05, 0.04]
 "#;
 
 fn bench(study: &str) -> Bench {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     bench.write("s.toml", study);
     bench
 }
@@ -99,7 +97,7 @@ fn shipped_studies_are_good() {
 /// Its data are compiled in, and so are those that it names beside those of its scene.
 #[test]
 fn a_shipped_study_of_two_models_runs_in_any_folder() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let outcome = bench.done("study dilatancy-judge --only loose-roux* --set run.end=0.02");
     outcome.out.says("loose, roux-radjai");
     let run = "run undrained-shear --set run.end=0.02 --set \

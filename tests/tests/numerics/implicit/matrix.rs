@@ -7,7 +7,7 @@ use sph_multiphase::viscosity::{
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Weak, World, interactions};
-use sph_tests::{assembled, scene};
+use sph_tests::{assembled, scene, within};
 
 const ETA: f64 = 3.0;
 /// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.
@@ -207,10 +207,7 @@ fn is_the_term<const D: usize>(world: &World<D>) {
                         .map(|i| explicit[i] - (source[i] - force[i]))
                         .collect();
                     let error = largest(&apart) / largest(&explicit);
-                    assert!(
-                        error < 1e-12,
-                        "{name} in {D}D: {error:e} between {from} and term"
-                    );
+                    assert!(error < 1e-12, "{name} in {D}D: {error:e} by {from}");
                 }
                 let apart = matrix.asymmetry();
                 assert!(apart < 1e-14, "{name} in {D}D: asymmetry {apart:e}");
@@ -226,10 +223,7 @@ fn is_the_term<const D: usize>(world: &World<D>) {
         }));
         let entries = |m: &Matrix<D>| m.pattern.columns.len() as f64;
         let left = entries(&strong) / entries(&whole);
-        assert!(
-            (0.1..0.9).contains(&left),
-            "{name} in {D}D: {left} of the pairs are left"
-        );
+        within(left, 0.1..0.9, &format!("{name} in {D}D: pairs left"));
     }
 }
 

@@ -36,10 +36,7 @@ fn a_standing_wave_is_that_of_the_scheme() {
             worst = worst.max((crest(&parts) / first - u).abs());
         }
         println!("a = {a}: off by {worst:.4} after {steps} steps, exact {u:.4}");
-        assert!(
-            worst < 0.005,
-            "off by {worst} with a = {a}, 0.0021 at most was measured"
-        );
+        assert!(worst < 0.005, "a = {a}: {worst}, measured 0.0021");
     }
 }
 
@@ -56,10 +53,7 @@ fn rings_out(integrator: &str) {
     let mut parts = with_implicit("elastic-shear-wave", &shaken);
     parts.flow.evaluate().unwrap();
     let limits = parts.flow.step_limits().unwrap();
-    assert!(
-        limits.iter().all(|l| l.name != "elastic wave"),
-        "{limits:?}"
-    );
+    assert!(limits.iter().all(|l| l.name != "elastic wave"));
     let dt = limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min);
     let first = kinetic_energy(&parts);
     let mut most = 0.0_f64;

@@ -1,8 +1,7 @@
 //! Beds and gates that nobody wants: refused at their line, or remarked upon before the run starts.
 
-use sph_tests::{Bench, one_line};
+use sph_tests::{bench, one_line};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 const BED: &str = include_str!("../../../../scenes/saturated-bed-at-rest.toml");
 
 /// Replaces parts of the bed; they must be there.
@@ -15,9 +14,7 @@ fn with(changes: &[[&str; 2]]) -> String {
 
 /// What `sph check` says of a scene that is good.
 fn checked(scene: &str) -> String {
-    let outcome = Bench::with(PROGRAM, scene)
-        .call("check scene.toml")
-        .ended(0);
+    let outcome = bench!(scene).call("check scene.toml").ended(0);
     // Lines are broken where the text ends.
     one_line(&outcome.out)
 }
@@ -92,7 +89,7 @@ fn a_gate_faster_than_sound() {
     let gate = "[wall.gate]\nbox = [[0.04, 0.3], [0.06, 0.4]]\nfluid = \"outside\"\n\
                 [wall.gate.motion]\nvelocity = [0.0, 25.0]\n\n[phase.sand]";
     let scene = with(&[["[phase.sand]", gate]]);
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let line = 1 + scene
         .lines()
         .position(|l| l == "[wall.gate.motion]")

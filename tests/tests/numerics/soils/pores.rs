@@ -1,10 +1,8 @@
 //! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
 
-use sph_tests::Bench;
+use sph_tests::{Bench, bench};
 
 use crate::sediment::refuses;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// A dense bed under water that is sheared by the water's start.
 const BED: &str = r#"
@@ -78,7 +76,7 @@ fn by_identity(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
 /// What the soil takes up is what the water gives, and its packing is that of its mass.
 #[test]
 fn grains_and_water_are_neither_made_nor_lost() {
-    let bench = Bench::with(PROGRAM, BED);
+    let bench = bench!(BED);
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
     bench.done("run scene.toml --quiet --out out");
     let [m0, m1] = ["none", "out"].map(|folder| by_identity(&bench, folder, "mass"));
@@ -98,7 +96,7 @@ fn grains_and_water_are_neither_made_nor_lost() {
 
 #[test]
 fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
-    Bench::with(PROGRAM, BED).same_bits("", 7);
+    bench!(BED).same_bits("", 7);
 }
 
 #[test]

@@ -3,9 +3,7 @@
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
 use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
-use sph_tests::{Bench, Says, evaluated, exchanged, line_of, scene, shipped};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Says, bench, evaluated, exchanged, line_of, scene, shipped};
 
 /// The scene without its references, which are files beside it.
 fn permeameter() -> String {
@@ -165,7 +163,7 @@ fn momentum_of_the_water_is_conserved() {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    let bench = Bench::with(PROGRAM, &permeameter());
+    let bench = bench!(&permeameter());
     let state = |threads: u32| {
         bench.done(&format!(
             "run scene.toml --quiet --out r{threads} --threads {threads} --set run.end=0.01"
@@ -198,7 +196,7 @@ fn particles_that_give_too_much_end_the_run() {
 fn refused(from: &str, to: &str, at: &str, words: &[&str]) {
     let text = exchanged(&permeameter(), from, to);
     let line = line_of(&text, at);
-    let refused = Bench::with(PROGRAM, &text).refused("check scene.toml");
+    let refused = bench!(&text).refused("check scene.toml");
     refused.says(&format!("scene.toml:{line}: | {}", words.join(" | ")));
 }
 

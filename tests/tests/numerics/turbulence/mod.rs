@@ -10,12 +10,10 @@ use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
 use sph_particles::setup::Assembled;
 use sph_run::Start;
-use sph_tests::{Bench, FinalState, PERIODIC, Ran, Says, near, ran, run_into, scene};
+use sph_tests::{FinalState, PERIODIC, Ran, Says, bench, near, ran, run_into, scene, within};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
 };
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// Water over a bed along x, without gravity.
 const CHANNEL: &str = r#"
@@ -153,7 +151,7 @@ fn solid_rotation_has_no_eddies_of_smagorinskys() {
 
 #[test]
 fn large_eddies_in_the_plane_are_warned_of() {
-    let bench = Bench::with(PROGRAM, &format!("{PERIODIC}\n{WALE}\n"));
+    let bench = bench!(&format!("{PERIODIC}\n{WALE}\n"));
     let outcome = bench.done("run scene.toml");
     (outcome.out + &outcome.err).says("in two its results");
 }
@@ -268,10 +266,7 @@ fn van_driests_damping_has_the_friction_velocity_of_the_bed() {
     {
         let share = damped[i] / undamped[i];
         let [low, high] = [least, largest].map(|u| Smagorinsky::damped(x.y * u / 1e-4).powi(2));
-        assert!(
-            share >= low - 1e-12 && share <= high + 1e-12,
-            "{share} at {x}"
-        );
+        within(share, low - 1e-12..=high + 1e-12, &format!("at {x}"));
     }
 }
 

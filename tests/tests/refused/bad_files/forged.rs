@@ -2,9 +2,7 @@
 
 use serde_json::{Value, json};
 use sph_io::Checkpoint;
-use sph_tests::{Bench, DAM_BREAK};
-
-use crate::bad_files::PROGRAM;
+use sph_tests::{DAM_BREAK, bench};
 
 /// Bits of a real, as headers have them.
 fn bits(x: f64) -> Value {
@@ -13,7 +11,7 @@ fn bits(x: f64) -> Value {
 
 #[test]
 fn clocks_and_counters_that_no_run_has_are_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let run = "run scene.toml --quiet --out r --set run.end=0.02";
     bench.done(run);
     let path = bench.path("r/checkpoint.sph");
@@ -78,7 +76,7 @@ fn clocks_and_counters_that_no_run_has_are_refused() {
 #[test]
 fn particles_without_mass_or_with_no_velocity_are_refused() {
     use sph_io::ColumnData::F64;
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let run = "run scene.toml --quiet --out r --set run.end=0.02";
     bench.done(run);
     let path = bench.path("r/checkpoint.sph");
@@ -105,7 +103,7 @@ fn particles_without_mass_or_with_no_velocity_are_refused() {
 
 #[test]
 fn a_state_past_the_end_is_not_taken_from_another_run_either() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out r --set run.end=0.05");
     let failed = bench.failed("run scene.toml --out s --from r --set run.end=0.02");
     failed.says("past the end of the scene, 0.02 s");

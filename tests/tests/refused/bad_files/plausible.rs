@@ -1,13 +1,11 @@
 //! Numbers that nature does not have are remarked upon at their line, and those with which no run can be right
 //! are refused there.
 
-use sph_tests::{Bench, DAM_BREAK, SOIL, Says, line_of, one_line, refusals};
-
-use crate::bad_files::PROGRAM;
+use sph_tests::{DAM_BREAK, SOIL, Says, bench, line_of, one_line, refusals};
 
 #[test]
 fn settings_that_no_run_survives_are_refused_at_their_line() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     for (scene, file) in [
         (DAM_BREAK, include_str!("impossible.refused")),
         (SOIL, include_str!("impossible_soil.refused")),
@@ -26,7 +24,7 @@ fn settings_that_no_run_survives_are_refused_at_their_line() {
 
 #[test]
 fn implausible_values_are_remarked_on_at_their_line() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     for (scene, file) in [
         (DAM_BREAK, include_str!("implausible.refused")),
         (SOIL, include_str!("implausible_soil.refused")),
@@ -53,7 +51,7 @@ fn implausible_values_are_remarked_on_at_their_line() {
 
 #[test]
 fn time_that_would_stand_still_is_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     // A step of 1e-4 s is below the distance of doubles at 1e15 s.
     let set = "--set run.end=1e15 --set output.every=1e14 --set output.series_every=1e14 \
                --set run.checkpoint_every=1e14";

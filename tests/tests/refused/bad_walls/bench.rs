@@ -1,8 +1,6 @@
 //! Scenes with one mistake.
 
-use sph_tests::{Bench, Says, one_line};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Says, bench, one_line};
 
 /// A corner of a triangle.
 pub type Corner = [f32; 3];
@@ -50,7 +48,7 @@ pub fn refused(scene: &str, words: &str) {
 
 /// The same of a scene with files.
 pub fn refused_with(scene: &str, files: &[(&str, &[u8])], words: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     for (name, bytes) in files {
         bench.write(name, bytes);
     }
@@ -69,7 +67,7 @@ pub fn refused_with(scene: &str, files: &[(&str, &[u8])], words: &str) {
 
 /// What `check` says of a good scene, in one line.
 fn checked(scene: &str) -> String {
-    let outcome = Bench::with(PROGRAM, scene).done("check scene.toml");
+    let outcome = bench!(scene).done("check scene.toml");
     one_line(&outcome.out)
 }
 
