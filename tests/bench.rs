@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::{FinalState, Says, Series};
+use crate::{FinalState, Says, Series, refusals};
 
 /// A folder for the program of the tests, with `scene.toml` in it if a scene is given.
 #[macro_export]
@@ -18,6 +18,9 @@ macro_rules! bench {
         $crate::Bench::with(env!("CARGO_BIN_EXE_sph-under-test"), $scene)
     };
 }
+
+/// The calls that read a scene.
+pub const CHECK_AND_RUN: [&str; 2] = ["check scene.toml", "run scene.toml"];
 
 /// A temporary folder in which the program is called.
 pub struct Bench {
@@ -109,6 +112,32 @@ impl Bench {
     #[track_caller]
     pub fn failed(&self, words: &str) -> Outcome {
         self.call(words).ended(1)
+    }
+
+    /// These calls refuse a file with each change of a list of [`refusals`], at the line that it names, and write nothing.
+    #[track_caller]
+    pub fn refuses(&self, file: &str, calls: &[&str], text: &str, changes: &'static str) {
+        for case in refusals(changes) {
+            let changed = case.of(text);
+            self.write(file, &changed);
+            let names = self.names();
+            for call in calls {
+                let refused = self.refused(call);
+                case.is_told(&refused.err, file, &changed);
+                assert_eq!(self.names(), names, "something was written");
+            }
+        }
+    }
+
+    /// `check` accepts a scene with each change of a list of [`refusals`] and remarks on it.
+    #[track_caller]
+    pub fn remarks(&self, scene: &str, changes: &'static str) {
+        for case in refusals(changes) {
+            let changed = case.of(scene);
+            self.write("scene.toml", &changed);
+            let told = self.done("check scene.toml").out;
+            case.is_told(&told, "scene.toml", &changed);
+        }
     }
 
     /// A file of the folder as JSON.

@@ -12,14 +12,14 @@ mod series;
 mod state;
 mod texts;
 
-pub use bench::{Bench, Outcome};
+pub use bench::{Bench, CHECK_AND_RUN, Outcome};
 pub use disk::Disk;
 pub use pages::list_items;
 pub use process::{Going, get, wait_until};
 pub use results::Results;
 pub use scenes::{
-    Ran, assembled, changes, evaluated, ran, refusal, run_into, same_bits, scene, shipped,
-    shipped_file, step,
+    Ran, assembled, changes, evaluated, finished, momentum, ran, refusal, run_into, same_bits,
+    scene, shipped, shipped_file, spin, step,
 };
 pub use series::Series;
 pub use state::{FinalState, files_with_extension};

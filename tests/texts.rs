@@ -103,6 +103,16 @@ impl Refusal {
             false => exchanged(scene, &self.from.join("\n"), &to),
         }
     }
+
+    /// All that is said must be in a text, and its place in the changed file if there is one. Lines may be broken.
+    #[track_caller]
+    pub fn is_told(&self, told: &str, file: &str, changed: &str) {
+        let told = one_line(told);
+        told.says(&self.said.join(" | "));
+        if !self.at.is_empty() {
+            told.says(&format!("{file}:{}:", line_of(changed, self.at)));
+        }
+    }
 }
 
 /// Assembly refuses a scene in the plane with the changes of a file.

@@ -192,11 +192,7 @@ fn missing_columns_are_named_with_the_written_ones() {
         .to_string();
     told.says("no field `vorticity` was written (there are: height, velocity, identity)");
     let told = snapshot.column("height.x").map(|c| c.values.len());
-    assert_eq!(
-        told.ok(),
-        Some(41 * 41),
-        "the first component of a number is the number"
-    );
+    assert_eq!(told.ok(), Some(41 * 41), "a number is its component");
     assert!(snapshot.column("height.y").is_err());
     let drawn = sph_io::curves::draw_streamlines(
         &frames,

@@ -3,9 +3,9 @@
 //! A periodic box of 20 × 20 particles in motion; what is not refused must stay finite and keep
 //! its mass and momentum.
 
-use sph_core::{StepLimit, System, Vect, fields};
+use sph_core::{StepLimit, System, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{Says, assembled, below, refusal, scene};
+use sph_tests::{Says, assembled, below, momentum, refusal, scene};
 
 const STEPS: usize = 60;
 const FORMULATIONS: [&str; 4] = ["hu-adams", "colagrossi-landrini", "grenier", "krimi"];
@@ -51,16 +51,6 @@ length = 1.0
 kinematic_viscosity = 0.0
 density = 0.0001
 "#;
-
-/// Σ m u and Σ m|u|.
-fn momentum(parts: &Assembled<2>) -> (Vect<2>, f64) {
-    let free = &parts.flow.world.free;
-    let mass = free.get(fields::MASS).unwrap();
-    let velocity = free.get(fields::VELOCITY).unwrap();
-    let pairs = || mass.iter().zip(velocity);
-    let sum = pairs().map(|(m, u)| u * *m).sum();
-    (sum, pairs().map(|(m, u)| m * u.norm()).sum())
-}
 
 /// Runs with the steps that the plugins allow and checks what came of it.
 fn survives(mut parts: Assembled<2>, what: &str) {

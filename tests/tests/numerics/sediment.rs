@@ -1,7 +1,7 @@
 //! Beds that a flow moves: laws, the balance of the grains, the same bits, refusals.
 
 use sph_soil::sediment::Grains;
-use sph_tests::{Bench, Says, Series, bench, close, refusal, refusals};
+use sph_tests::{Bench, Series, assembly_refuses, bench, close};
 
 /// Water over a bed along x with a bump in the middle.
 pub(super) const CHANNEL: &str = r#"
@@ -140,19 +140,7 @@ fn beds_have_the_same_bits_on_threads_and_after_an_interruption() {
     }
 }
 
-/// Assembly refuses a scene with the changes of a file.
-pub(crate) fn refuses(scene: &str, file: &'static str) {
-    for case in refusals(file) {
-        let text = case.of(scene);
-        let text = match text.contains("gravity = [") {
-            true => text,
-            false => text.replace("pressure = \"hydrostatic\"", ""),
-        };
-        refusal::<2>(&text).says(&case.said.join(" | "));
-    }
-}
-
 #[test]
 fn beds_that_are_none_are_refused() {
-    refuses(CHANNEL, include_str!("sediment.refused"));
+    assembly_refuses(CHANNEL, include_str!("sediment.refused"));
 }

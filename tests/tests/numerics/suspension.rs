@@ -1,8 +1,8 @@
 //! Grains in suspension: shocks of settling, balance of settling and mixing, the balance of the grains, the same bits, refusals.
 
-use sph_tests::{bench, close};
+use sph_tests::{assembly_refuses, bench, close};
 
-use crate::sediment::{CHANNEL, column, in_space, refuses};
+use crate::sediment::{CHANNEL, column, in_space};
 
 /// A still column with grains at a concentration of 0.1 that are hardly heavier than water.
 const COLUMN: &str = r#"
@@ -229,7 +229,7 @@ fn grains_come_in_and_go_out_by_open_faces() {
 
 #[test]
 fn suspensions_that_are_none_are_refused() {
-    refuses(COLUMN, include_str!("suspension.refused"));
-    refuses(OPEN, include_str!("suspension_open.refused"));
-    refuses(&lifting(CHANNEL), include_str!("suspension_lifted.refused"));
+    assembly_refuses(COLUMN, include_str!("suspension.refused"));
+    assembly_refuses(OPEN, include_str!("suspension_open.refused"));
+    assembly_refuses(&lifting(CHANNEL), include_str!("suspension_lifted.refused"));
 }

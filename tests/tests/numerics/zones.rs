@@ -57,6 +57,25 @@ fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
     }
 }
 
+/// Mass of the coarse particles of a folder that are inside, kg.
+fn mass_around(bench: &Bench, folder: &str, inside: impl Fn(&[f64]) -> bool) -> f64 {
+    let file = format!("{folder}/checkpoint.sph");
+    let [place, mass] = ["position", "mass"].map(|name| column(bench, &file, name));
+    let pairs = place.chunks_exact(2).zip(&mass);
+    pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum()
+}
+
+/// Threads and an interruption change no bit of a scene, nor of the files of its zones.
+fn same_bits(scene: &str, steps: u32, zones: &[&str]) {
+    let bench = bench!(scene);
+    bench.same_bits("", steps);
+    for zone in zones {
+        let files = ["one", "parts"].map(|folder| format!("{folder}/checkpoint-{zone}.sph"));
+        let [a, b] = files.map(|file| column(&bench, &file, "density_constant"));
+        assert!(!a.is_empty() && a == b, "{zone}");
+    }
+}
+
 /// Every particle of the zone has come in and gone out two and a half times.
 #[test]
 fn a_uniform_flow_passes_a_zone_unchanged() {
@@ -107,35 +126,23 @@ fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
     let bench = bench!(&dam());
     bench.done("run scene.toml --quiet --out out");
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
-    let total = |folder: &str| -> f64 {
-        let mass = column(&bench, &format!("{folder}/checkpoint.sph"), "mass");
-        mass.iter().sum()
-    };
+    let total = |folder| mass_around(&bench, folder, |_| true);
     let (start, coarse) = (total("none"), total("out"));
     assert!((coarse / start - 1.0).abs() < 1e-14, "{coarse} kg");
-    let place = column(&bench, "out/checkpoint.sph", "position");
-    let mass = column(&bench, "out/checkpoint.sph", "mass");
     // Two supports of the finer particles around the box.
     let band = 2.0 * 4.0 * 0.01;
     let inside = |x: &[f64]| x[0] >= 0.3 - band && x[1] < 0.4 + band;
-    let pairs = place.chunks_exact(2).zip(&mass);
-    let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
-    let zone: f64 = column(&bench, "out/checkpoint-wall.sph", "mass")
-        .iter()
-        .sum();
+    let around = mass_around(&bench, "out", inside);
+    let zone = column(&bench, "out/checkpoint-wall.sph", "mass");
+    let zone = zone.iter().sum();
     assert!(around > 0.1 * start, "{around} kg came in");
     near(zone, around, 1e-12, "kg");
 }
 
 #[test]
-fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = bench!(&dam());
-    bench.same_bits("", 400);
-    for zone in ["checkpoint-wall.sph", "checkpoint-wall-corner.sph"] {
-        let [a, b] = ["one", "parts"]
-            .map(|folder| column(&bench, &format!("{folder}/{zone}"), "density_constant"));
-        assert!(!a.is_empty() && a == b, "{zone}");
-    }
+fn zones_that_rest_and_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
+    same_bits(&dam(), 400, &["wall", "wall-corner"]);
+    same_bits(HEAVING, 100, &["near"]);
 }
 
 /// A checkpoint of another run has no zones to begin with.
@@ -199,16 +206,12 @@ fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
     // Radius with the band of two supports of the finer particles, m.
     let reach = 0.2 + 2.0 * 4.0 * 0.01;
     let masses = |folder: &str, way: f64| -> [f64; 2] {
-        let file = format!("{folder}/checkpoint.sph");
-        let place = column(&bench, &file, "position");
         let inside = |x: &[f64]| {
             let along = x[0] - 0.9 - way;
             let nearest = along - 1.2 * (along / 1.2).round();
             nearest.hypot(x[1] - 0.35) <= reach
         };
-        let mass = column(&bench, &file, "mass");
-        let pairs = place.chunks_exact(2).zip(&mass);
-        let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
+        let around = mass_around(&bench, folder, inside);
         let zone = column(&bench, &format!("{folder}/checkpoint-near.sph"), "mass");
         [around, zone.iter().sum()]
     };
@@ -294,15 +297,6 @@ fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
     near(way("finer.y"), true_way, 0.03 * true_way, "m");
     let coarser = way("coarser.y") / true_way;
     assert!((coarser - 1.0).abs() > 0.1, "{coarser}");
-}
-
-#[test]
-fn zones_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = bench!(HEAVING);
-    bench.same_bits("", 100);
-    let file = |folder: &str| format!("{folder}/checkpoint-near.sph");
-    let [a, b] = ["one", "parts"].map(|folder| column(&bench, &file(folder), "density_constant"));
-    assert!(!a.is_empty() && a == b);
 }
 
 /// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.

@@ -6,7 +6,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
-use sph_tests::{Ran, ran, same_bits, scene};
+use sph_tests::{finished, same_bits};
 
 contribution_kind!(
     /// What lets particles in.
@@ -136,13 +136,9 @@ vtk = false
 fields = ["warmth"]
 "#;
 
-fn finished(text: &str) -> Ran {
-    ran(&scene(text, &[]), 1).unwrap_or_else(|e| panic!("{e}"))
-}
-
 #[test]
 fn drops_come_and_go_with_their_mass_their_columns_and_names_of_their_own() {
-    let run = finished(SCENE);
+    let run = finished(SCENE, 1);
     let (summary, state) = (&run.summary, run.state());
     let born = (1.2_f64 / 0.151).floor() as u64;
     let left = &summary.left["outlet.floor.water"];
@@ -172,7 +168,8 @@ fn births_and_deaths_are_the_same_bits_on_two_threads_resumed_and_after_a_step_w
         assert!(identities.iter().any(|id| *id >= FIRST), "{identities:?}");
     });
     // A step that fails is done again in shorter ones, and nobody is born twice.
-    let run = finished(&SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3"));
+    let failing = SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3");
+    let run = finished(&failing, 1);
     let summary = &run.summary;
     assert_eq!(summary.steps_rolled_back, 1);
     assert!(summary.drift.mass.abs() < 1e-14, "{:e}", summary.drift.mass);

@@ -1,6 +1,6 @@
 //! Floors that follow levels from a table.
 
-use sph_tests::{bench, close};
+use sph_tests::{CHECK_AND_RUN, bench, close};
 
 /// Syrup at rest, 0.2 m long and 0.1 m deep, whose floor tilts by 16 mm in a second.
 const SCENE: &str = r#"title = "A floor tilts"
@@ -62,26 +62,8 @@ fn a_floor_follows_its_table_and_the_water_the_floor() {
 
 #[test]
 fn tables_that_do_not_fit_are_told_with_the_nearest_name() {
-    let bench = bench!(SCENE);
+    let bench = bench!();
     bench.write("levels.csv", LEVELS);
-    for (from, to, told) in [
-        ("\"right\"]", "\"rihgt\"]", "did you mean `right`?"),
-        (
-            "places = [0.0, 0.2]",
-            "places = [0.2, 0.0]",
-            "places must ascend",
-        ),
-        ("\"left\", ", "", "1 columns for 2 places"),
-        ("start = \"2 s\"", "start = \"9 s\"", "no row after 9 s"),
-        (
-            "[phase.syrup]",
-            "[wall.tank.motion]\nvelocity = [1.0, 0.0]\n[phase.syrup]",
-            "no other motion",
-        ),
-    ] {
-        let wrong = SCENE.replacen(from, to, 1);
-        assert_ne!(wrong, SCENE, "{from}");
-        bench.write("wrong.toml", &wrong);
-        bench.refused("check wrong.toml").says(told);
-    }
+    let changes = include_str!("levels.refused");
+    bench.refuses("scene.toml", &CHECK_AND_RUN, SCENE, changes);
 }

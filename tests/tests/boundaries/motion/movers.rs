@@ -1,6 +1,6 @@
 //! Walls that the fluid moves.
 
-use sph_tests::{Bench, bench, near};
+use sph_tests::{Bench, CHECK_AND_RUN, bench, near};
 
 /// Water between a wall and a block that slides along the floor on a spring.
 const PISTON: &str = r#"
@@ -101,18 +101,6 @@ fn resumed_and_threaded(scene: &str) {
 
 #[test]
 fn a_wall_has_one_motion_and_movers_are_checked() {
-    let motion = "[wall.piston.motion]\nvelocity = [1, 0]\n[wall.tank]";
-    for (from, to, told) in [
-        ("[wall.tank]", motion, "wall.piston.mover.spring"),
-        ("mover.spring", "mover.sprin", "`spring`"),
-        (
-            "along = [2.0, 0.0]",
-            "along = [2.0, 0.0, 1.0]",
-            "2 are expected",
-        ),
-        ("mass = 40.0", "mass = 0.0", "mover.spring.mass"),
-    ] {
-        let bench = bench!(&PISTON.replace(from, to));
-        bench.refused("check scene.toml").says(told);
-    }
+    let changes = include_str!("movers.refused");
+    bench!().refuses("scene.toml", &CHECK_AND_RUN, PISTON, changes);
 }

@@ -1,8 +1,8 @@
 //! Open faces in space, `[wall.NAME.open-boundary.PLUGIN]` on triangles.
 
-use sph_tests::{near, same_bits, within};
+use sph_tests::{finished, near, same_bits, within};
 
-use super::{assert_refused, finished, missing, number, passed, stays_uniform};
+use super::{assert_refused, missing, number, passed, stays_uniform};
 
 /// A duct of four by five by eight rows between an inlet and an outlet.
 const DUCT: &str = r#"

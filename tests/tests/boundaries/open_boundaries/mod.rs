@@ -11,7 +11,7 @@ use sph_particles::setup::assemble;
 use sph_particles::{Stepper, Summary};
 use sph_scene::parse;
 use sph_solver::SolverError;
-use sph_tests::{Ran, assembled, near, ran, refusals, same_bits, scene};
+use sph_tests::{Ran, assembled, finished, near, refusals, same_bits, scene};
 
 /// A channel of ten rows between an inlet and an outlet, `MORE` for what a test adds to either.
 const CHANNEL: &str = r#"
@@ -60,10 +60,6 @@ kind = "passed"
 every = 0.6
 vtk = false
 "#;
-
-fn finished(text: &str, threads: usize) -> Ran {
-    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
-}
 
 /// What passed the faces, of which nothing is missing.
 fn passed(summary: &Summary) -> &Json {

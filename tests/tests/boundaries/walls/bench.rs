@@ -57,6 +57,12 @@ impl<const D: usize> Flowing<D> {
         self.masses().iter().sum()
     }
 
+    /// How many particles are behind a wall.
+    pub fn escaped(&self) -> usize {
+        let flow = &self.0.flow;
+        flow.escaped_from(flow.walls.as_deref()).expect("a count")
+    }
+
     /// Σ m a and Σ m |a|, N.
     pub fn momentum_rate(&self) -> (Vect<D>, f64) {
         let a = self.0.flow.world.free.get(fields::ACCELERATION).unwrap();
@@ -67,8 +73,7 @@ impl<const D: usize> Flowing<D> {
 
     /// Σ m u, kg m/s.
     pub fn momentum(&self) -> Vect<D> {
-        let all = self.velocities().iter().zip(self.masses());
-        all.map(|(u, m)| u * *m).sum()
+        sph_tests::momentum(&self.0).0
     }
 
     /// Forces of the fluid on the walls with their names.

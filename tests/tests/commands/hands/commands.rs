@@ -65,11 +65,7 @@ fn every_page_of_docs_is_in_the_table_of_contents_once() {
             }
         }
     }
-    assert_eq!(
-        summary.matches("](").count(),
-        pages,
-        "links that are no page of docs"
-    );
+    assert_eq!(summary.matches("](").count(), pages, "links");
 }
 
 #[test]

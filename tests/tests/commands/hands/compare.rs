@@ -47,14 +47,10 @@ fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
     let [only] = differ.as_slice() else {
         panic!("{differ:#?}");
     };
-    assert_eq!(
-        (&only["column"], &only["file"]),
-        (&Json::from("velocity"), &Json::from("checkpoint.sph"))
-    );
-    assert_eq!(
-        (&only["particle"], &only["component"]),
-        (&Json::from(number), &Json::from(1))
-    );
+    assert_eq!(only["column"], "velocity");
+    assert_eq!(only["file"], "checkpoint.sph");
+    assert_eq!(only["particle"], number);
+    assert_eq!(only["component"], 1);
     assert!((only["largest"].as_f64().expect("a number") - 0.25).abs() < 1e-12);
     let text = bench.call("compare a b").out;
     text.says(&format!("particle {number}, y, at ("));

@@ -27,92 +27,49 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
     Results::read(&bench.path(&out))
 }
 
-#[test]
-fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
-    let bench = bench!(DAM_BREAK);
+/// A scene, with a `column` of its checkpoint or series, is killed at simulated times and resumed with numbers of threads.
+fn resumes(scene: &str, column: &str, kills: &[(f64, u32)]) {
+    let bench = bench!(scene);
     let whole = uninterrupted(&bench);
-    for time in [0.03, 0.11, 0.29] {
-        let resumed = killed_and_resumed(&bench, time, 2);
-        whole.assert_same(&resumed, &format!("killed at t = {time} s"));
+    let state = &whole.state;
+    assert!(state.columns.contains_key(column) || state.series.contains(column));
+    for (time, threads) in kills {
+        let resumed = killed_and_resumed(&bench, *time, *threads);
+        let told = format!("{column}: killed at t = {time} s, {threads} threads");
+        whole.assert_same(&resumed, &told);
     }
 }
 
 #[test]
-fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
-    let tables = "[pressure.implicit]\n[surface.cone-test]";
-    let bench = bench!(&format!("{DAM_BREAK}\n{tables}\n"));
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("pressure"));
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with a pressure of the end of the step");
+fn a_killed_run_resumes_bit_for_bit_from_several_moments_with_any_number_of_threads() {
+    let kills = [(0.03, 2), (0.11, 2), (0.15, 1), (0.15, 3), (0.29, 2)];
+    resumes(DAM_BREAK, "position", &kills);
 }
 
 #[test]
-fn a_renormalised_surface_goes_on_where_it_was() {
-    let bench = bench!(&format!("{DAM_BREAK}\n[surface.renormalised]\n"));
-    let whole = uninterrupted(&bench);
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with a renormalised surface");
-}
-
-#[test]
-fn another_number_of_threads_resumes_it_too() {
-    let bench = bench!(DAM_BREAK);
-    let whole = uninterrupted(&bench);
-    for threads in [1, 3] {
-        let resumed = killed_and_resumed(&bench, 0.15, threads);
-        whole.assert_same(&resumed, &format!("resumed with {threads} threads"));
+fn pressures_that_are_solved_for_surfaces_outlets_and_displacements_go_on_where_they_were() {
+    let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
+    resumes(&asked, "displacement", &[(0.11, 1)]);
+    for (tables, column) in [
+        ("[pressure.implicit]\n[surface.cone-test]", "pressure"),
+        ("[surface.renormalised]", "position"),
+        ("[outlet.end]\nbeyond = 0.45", "outlet.end.water[kg]"),
+    ] {
+        let scene = format!("{DAM_BREAK}\n{tables}\n");
+        resumes(&scene, column, &[(0.11, 1), (0.29, 1)]);
     }
 }
 
 #[test]
 fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
-    let bench = bench!(PADDLE);
-    let whole = uninterrupted(&bench);
-    for time in [0.15, 0.32] {
-        let resumed = killed_and_resumed(&bench, time, 2);
-        whole.assert_same(&resumed, &format!("moving wall, killed at t = {time} s"));
-    }
+    resumes(PADDLE, "position", &[(0.15, 2), (0.32, 2)]);
 }
 
 #[test]
-fn particles_that_left_by_an_outlet_stay_away_and_counted() {
-    let bench = bench!(&format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),);
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.series.contains("outlet.end.water[kg]"));
-    for time in [0.11, 0.29] {
-        let resumed = killed_and_resumed(&bench, time, 1);
-        whole.assert_same(&resumed, &format!("an outlet, killed at t = {time} s"));
-    }
-}
-
-#[test]
-fn displacements_go_on_where_they_were() {
-    let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
-    let bench = bench!(&asked);
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("displacement"));
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with displacements");
-}
-
-#[test]
-fn the_remembered_displacement_of_a_soil_is_resumed() {
-    let bench = bench!(SOIL);
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("stress_rotation"));
-    let resumed = killed_and_resumed(&bench, 0.04, 1);
-    whole.assert_same(&resumed, "with elastic displacements");
-}
-
-#[test]
-fn stresses_of_the_end_of_the_step_and_of_sub_steps_go_on_as_well() {
+fn displacements_and_stresses_of_a_soil_go_on_where_they_were() {
+    resumes(SOIL, "stress_rotation", &[(0.04, 1)]);
     for force in [END_OF_THE_STEP, SUB_STEPS] {
-        let bench = bench!(&soil_with(force));
-        let whole = uninterrupted(&bench);
-        assert!(whole.state.columns.contains_key("elastic_stress"));
-        let resumed = killed_and_resumed(&bench, 0.04, 1);
-        whole.assert_same(&resumed, force);
+        resumes(&soil_with(force), "elastic_stress", &[(0.04, 1)]);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sph_study::{SceneText, Study};
-use sph_tests::{Bench, Says, bench, line_of};
+use sph_tests::{Bench, Says, bench};
 
 mod along;
 mod failures;
@@ -48,15 +48,8 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 /// A study is refused with the changes of a file, at the line that each names, and leaves no file.
-fn refuses(study: &str, file: &'static str) {
-    for case in sph_tests::refusals(file) {
-        let text = case.of(study);
-        let bench = bench(&text);
-        let refused = bench.refused("study s.toml");
-        let line = line_of(&text, case.at);
-        refused.says(&format!("s.toml:{line}: | {}", case.said.join(" | ")));
-        assert_eq!(bench.names(), ["s.toml"], "something was written");
-    }
+fn refuses(study: &str, changes: &'static str) {
+    bench!().refuses("s.toml", &["study s.toml"], study, changes);
 }
 
 #[test]

@@ -19,10 +19,8 @@ fn a_study_leaves_a_table_plots_and_a_page_and_runs_nothing_twice() {
          report.html study.csv study.json variants"
     );
     let variant = folder.join("variants/morris_spacing-0.05");
-    assert_eq!(
-        files(&variant).join(" "),
-        "record.json series.csv summary.json"
-    );
+    let left = files(&variant).join(" ");
+    assert_eq!(left, "record.json series.csv summary.json");
 
     let told = bench.json("results/studies/s/study.json");
     assert_eq!(told["schema_version"], 1);

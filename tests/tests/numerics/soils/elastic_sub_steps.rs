@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{Says, within};
+use sph_tests::within;
 
 use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
 use crate::soils::tried;
@@ -101,20 +101,4 @@ fn a_disc_that_spins_freely_keeps_its_angular_momentum() {
     let kept = spin_kept("[elastic-force.divergence]\nsub_steps = true\n");
     println!("angular momentum after 1 rad: {kept}");
     assert!((kept - 1.0).abs() < 1e-5, "{kept} of it");
-}
-
-#[test]
-fn it_is_refused_where_it_is_not_known() {
-    let because = |overrides: &[&str]| match tried("resting-slope", overrides) {
-        Err(error) => error.to_string(),
-        Ok(_) => panic!("{overrides:?} is accepted"),
-    };
-    for (other, word) in [
-        ("elastic-force.divergence.implicit=true", "`implicit`"),
-        ("integrator={leap-frog={}}", "symplectic-euler"),
-        ("velocity-gradient.renormalised.adjoint=true", "adjoint"),
-    ] {
-        let why = because(&[SUB_STEPS, other]);
-        why.says(&format!("{word} | sub_steps"));
-    }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{Says, close};
+use sph_tests::close;
 
 use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
 use crate::soils::tried;
@@ -123,21 +123,4 @@ fn a_stiff_slope_that_is_too_steep_flows() {
     println!("{half} m/s after 0.5 s, then the top gains {gained} m/s²");
     close(gained, 0.593, 0.06, "m/s²");
     assert!(half > 0.1, "{half} m/s after 0.5 s, 0.24 with a soft soil");
-}
-
-#[test]
-fn it_is_refused_without_what_solves_for_it() {
-    let because = |overrides: &[&str]| match tried("elastic-shear-wave", overrides) {
-        Err(error) => error.to_string(),
-        Ok(_) => panic!("{overrides:?} is accepted"),
-    };
-    let alone = because(&IMPLICIT[..1]);
-    alone.says("implicit-viscosity.backward-euler");
-    let half = because(&[IMPLICIT[0], "implicit-viscosity.crank-nicolson={}"]);
-    half.says("end of the step");
-    let plain = because(&IMPLICIT[..2]);
-    plain.says("monaghan-gingold");
-    let adjoint = "velocity-gradient.renormalised.adjoint=true";
-    let both = because(&[IMPLICIT[0], IMPLICIT[1], IMPLICIT[2], adjoint]);
-    both.says("adjoint");
 }

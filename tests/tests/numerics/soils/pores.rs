@@ -1,8 +1,6 @@
 //! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
 
-use sph_tests::{Bench, bench};
-
-use crate::sediment::refuses;
+use sph_tests::{Bench, assembly_refuses, bench};
 
 /// A dense bed under water that is sheared by the water's start.
 const BED: &str = r#"
@@ -101,5 +99,5 @@ fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
 
 #[test]
 fn pores_that_are_none_are_refused() {
-    refuses(BED, include_str!("pores.refused"));
+    assembly_refuses(BED, include_str!("pores.refused"));
 }

@@ -3,7 +3,7 @@
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
 use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
-use sph_tests::{Says, bench, evaluated, exchanged, line_of, scene, shipped};
+use sph_tests::{CHECK_AND_RUN, Says, bench, evaluated, scene, shipped};
 
 /// The scene without its references, which are files beside it.
 fn permeameter() -> String {
@@ -192,29 +192,8 @@ fn particles_that_give_too_much_end_the_run() {
     told.says("size of particle | seepage | size_limit");
 }
 
-/// The scene with `from` as `to` is refused at the line that has `at`.
-fn refused(from: &str, to: &str, at: &str, words: &[&str]) {
-    let text = exchanged(&permeameter(), from, to);
-    let line = line_of(&text, at);
-    let refused = bench!(&text).refused("check scene.toml");
-    refused.says(&format!("scene.toml:{line}: | {}", words.join(" | ")));
-}
-
 #[test]
 fn bad_tables_are_refused_at_their_line() {
-    for porosity in ["0.0", "1.0", "1.2"] {
-        let to = format!("porosity = {porosity}");
-        refused("porosity = 0.366", &to, "porosity", &["porosity"]);
-    }
-    let near = ["there is no phase called `beds`", "beads"];
-    refused("soil = \"beads\"", "soil = \"beds\"", "soil =", &near);
-    let other = ["there is no phase called `oil`"];
-    refused("water = \"water\"", "water = \"oil\"", "water =", &other);
-    let same = ["is the soil"];
-    refused("water = \"water\"", "water = \"beads\"", "water =", &same);
-    let missing = ["grain_diameter"];
-    refused("grain_diameter = \"1 mm\"\n", "", "[seepage", &missing);
-    let summed = ["hu-adams"];
-    let other = "[formulation.colagrossi-landrini]";
-    refused("[formulation.hu-adams]", other, "[seepage", &summed);
+    let changes = include_str!("seepage.refused");
+    bench!().refuses("scene.toml", &CHECK_AND_RUN, &permeameter(), changes);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{evaluated, scene};
+use sph_tests::{evaluated, scene, spin};
 
 /// A step, and the forces after it.
 pub fn step(parts: &mut Assembled<2>, dt: f64) {
@@ -92,12 +92,4 @@ pub fn spin_kept(table: &str) -> f64 {
         step(&mut parts, 1e-3);
     }
     spin(&parts) / first
-}
-
-/// Σ x × u.
-fn spin(parts: &Assembled<2>) -> f64 {
-    let free = &parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap();
-    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
-    all.map(|(x, u)| x[0] * u[1] - x[1] * u[0]).sum()
 }

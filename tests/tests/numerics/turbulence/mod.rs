@@ -10,7 +10,7 @@ use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
 use sph_particles::setup::Assembled;
 use sph_run::Start;
-use sph_tests::{FinalState, PERIODIC, Ran, Says, bench, near, ran, run_into, scene, within};
+use sph_tests::{FinalState, PERIODIC, Says, bench, finished, near, ran, run_into, scene, within};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
 };
@@ -79,10 +79,6 @@ fn assembled<const D: usize>(text: &str, changes: &[&str]) -> Assembled<D> {
 /// With the rates of the start.
 fn evaluated<const D: usize>(text: &str, changes: &[&str]) -> World<D> {
     sph_tests::evaluated(&scene(text, changes)).flow.world
-}
-
-fn finished(text: &str, threads: usize) -> Ran {
-    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A run that stops after 20 steps and goes on with two threads.

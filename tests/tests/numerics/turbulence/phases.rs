@@ -2,12 +2,12 @@
 
 use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
-use sph_tests::near;
+use sph_tests::{finished, near};
 use sph_turbulence::{
     BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, SURFACE_SHARE, TURBULENT_ENERGY, WallLaw,
 };
 
-use crate::turbulence::{CHANNEL, assembled, finished};
+use crate::turbulence::{CHANNEL, assembled};
 
 /// Water that slides over a layer of syrup, without gravity and walls but for the floor that the syrup sticks to.
 pub(crate) const OVER_A_BED: &str = r#"

@@ -1,8 +1,8 @@
 //! Means over time and layers, and spectra.
 
-use sph_tests::{FinalState, PERIODIC, Series, bench, close};
+use sph_tests::{FinalState, PERIODIC, Series, bench, close, finished};
 
-use crate::turbulence::{CHANNEL, finished, in_two_parts};
+use crate::turbulence::{CHANNEL, in_two_parts};
 
 const MEANS: &str =
     "[probe.means]\nkind = \"mean-profile\"\naxis = \"y\"\nfrom = 0.0\nto = 0.2\nlayers = 20\n";

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::process::Stdio;
 
-use sph_tests::{Bench, DAM_BREAK, Says, bench, wait_until};
+use sph_tests::{Bench, CHECK_AND_RUN, DAM_BREAK, Says, bench, wait_until};
 
 const REFERENCE: &str = "\n[reference.front]\nprobe = \"front\"\nfile = \"r.csv\"\n";
 
@@ -41,22 +41,15 @@ fn references_that_nothing_can_be_compared_with_are_refused_before_the_run() {
 
 #[test]
 fn norms_that_cannot_be_computed_are_refused_before_the_run() {
-    for (keys, told) in [
-        ("norm = \"lag\"", "`lag` needs the `period`"),
-        ("norm = \"decay-rate\"", "`decay-rate` needs a `solution`"),
-        ("norm = \"rms\"", "`rms` is for fields"),
-        (
-            "scale_value = 0.0",
-            "a scale is a finite number other than 0",
-        ),
-        (
-            "scale_time = 0.0",
-            "a scale is a finite number other than 0",
-        ),
-    ] {
-        let bench = with_reference(keys, "t,u\n0,1\n1,1\n");
-        bench.refused("check scene.toml").says(told);
-    }
+    let bench = bench!();
+    bench.write("r.csv", "t,u\n0,1\n1,1\n");
+    let scene = format!("{DAM_BREAK}{REFERENCE}");
+    bench.refuses(
+        "scene.toml",
+        &CHECK_AND_RUN,
+        &scene,
+        include_str!("norms.refused"),
+    );
 }
 
 /// The run has been paid for: it keeps its summary and says what is missing.

@@ -63,11 +63,7 @@ fn clocks_and_counters_that_no_run_has_are_refused() {
         forged.save(&path).expect("saved");
         let failed = bench.failed(&format!("{run} --resume"));
         failed.says(&format!("checkpoint.sph | {told}"));
-        assert_eq!(
-            bench.read("r/series.csv"),
-            series,
-            "{place}: the series was touched"
-        );
+        assert_eq!(bench.read("r/series.csv"), series, "{place}");
     }
     whole.save(&path).expect("saved");
     bench.done(&format!("{run} --resume"));
