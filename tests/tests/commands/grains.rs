@@ -3,24 +3,7 @@
 use sph_tests::{Bench, bench, files_with_extension, refusals};
 
 /// Sixty grains that fall into a box.
-const DRY: &str = r#"title = "Grains fall"
-[run]
-end = "0.2 s"
-[grains]
-count = 60
-radius = ["9 mm", "11 mm"]
-density = "2500 kg/m³"
-gravity = [0, 0, -9.81]
-[grains.contact.linear-elastic]
-modulus = "1 MPa"
-stiffness_ratio = 0.5
-friction = 0.5
-damping = 0.2
-[start.cloud]
-[box]
-low = [0, 0, 0]
-high = [0.1, 0.1, 0.15]
-"#;
+const DRY: &str = include_str!("dry.toml");
 
 /// The same in a fluid that drains through the top.
 fn wet() -> String {

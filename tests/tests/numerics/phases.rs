@@ -10,47 +10,7 @@ use sph_tests::{Says, assembled, below, momentum, refusal, scene};
 const STEPS: usize = 60;
 const FORMULATIONS: [&str; 4] = ["hu-adams", "colagrossi-landrini", "grenier", "krimi"];
 
-const BOX: &str = r#"
-title = "Two phases in a periodic box"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.05
-smoothing_ratio = 2.0
-[numerics.periodic]
-x = [0.0, 1.0]
-y = [0.0, 1.0]
-[formulation.hu-adams]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[phase.lower]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.lower.rheology.newtonian]
-viscosity = 1.0
-[phase.upper]
-density = 1.0
-speed_of_sound = 10.0
-[phase.upper.rheology.newtonian]
-viscosity = 0.001
-[body.lower]
-phase = "lower"
-box = [[0.0, 0.0], [1.0, 0.5]]
-[body.lower.initial.taylor-green]
-speed = 0.2
-length = 1.0
-kinematic_viscosity = 0.0
-density = 0.0001
-[body.upper]
-phase = "upper"
-box = [[0.0, 0.5], [1.0, 1.0]]
-[body.upper.initial.taylor-green]
-speed = 0.2
-length = 1.0
-kinematic_viscosity = 0.0
-density = 0.0001
-"#;
+const BOX: &str = include_str!("box.toml");
 
 /// Runs with the steps that the plugins allow and checks what came of it.
 fn survives(mut parts: Assembled<2>, what: &str) {

@@ -4,51 +4,7 @@ use sph_soil::sediment::Grains;
 use sph_tests::{Bench, Series, assembly_refuses, bench, close};
 
 /// Water over a bed along x with a bump in the middle.
-pub(super) const CHANNEL: &str = r#"
-title = "Water over sand"
-dimension = 2
-[run]
-end = 0.05
-[numerics]
-spacing = 0.01
-smoothing_ratio = 2.0
-gravity = [0.0, -9.81]
-periodic = { x = [0.0, 0.4] }
-[viscous-operator.morris]
-within = "arithmetic"
-[eddy-viscosity.mixing-length]
-depth = 0.1
-walls = ["bed"]
-[wall-function.log-law]
-walls = ["bed"]
-roughness = "2.5 mm"
-[bed-load.meyer-peter-muller]
-grain_diameter = "1 mm"
-[walls.usaw]
-vertices = false
-[wall.bed]
-polyline = [[0.0, 0.0], [0.15, 0.0], [0.2, 0.02], [0.25, 0.0], [0.4, 0.0]]
-condition = "free-slip"
-[wall.bed.erodible]
-rock = -0.1
-[phase.water]
-density = 1000.0
-speed_of_sound = 15.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.4, 0.1]]
-clip = true
-pressure = "hydrostatic"
-velocity = [1.0, 0.0]
-[probe.bed]
-kind = "bed-levels"
-wall = "bed"
-[output]
-every = 0.05
-series_every = 1e-9
-vtk = false
-"#;
+pub(super) const CHANNEL: &str = include_str!("channel.toml");
 
 /// A heap of sand in a channel of three dimensions.
 pub(super) fn in_space() -> String {

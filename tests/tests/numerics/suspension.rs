@@ -5,53 +5,7 @@ use sph_tests::{assembly_refuses, bench, close};
 use crate::sediment::{CHANNEL, column, in_space};
 
 /// A still column with grains at a concentration of 0.1 that are hardly heavier than water.
-const COLUMN: &str = r#"
-title = "Grains settle"
-dimension = 2
-[run]
-end = 2.0
-[numerics]
-spacing = 0.005
-smoothing_ratio = 2.0
-gravity = [0.0, -9.81]
-periodic = { x = [0.0, 0.05] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[suspension.settling]
-grain_diameter = "1 mm"
-grain_density = 1001.0
-settling_velocity = 0.05
-hindrance_exponent = 4.65
-packing = 0.6
-start = [{ body = "water", concentration = 0.1 }]
-[wall.ground]
-polyline = [[0.0, 0.0], [0.05, 0.0]]
-[phase.water]
-density = 1000.0
-speed_of_sound = 13.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.05, 0.15]]
-pressure = "hydrostatic"
-[probe.clear]
-kind = "concentration-level"
-concentration = 0.05
-[probe.deposit]
-kind = "concentration-level"
-concentration = 0.35
-[probe.grains]
-kind = "statistic"
-field = "concentration"
-weight = "mass"
-reduce = ["sum", "min", "max"]
-[output]
-every = 2.0
-series_every = 0.1
-vtk = false
-"#;
+const COLUMN: &str = include_str!("column.toml");
 
 /// A channel whose flow lifts grains.
 fn lifting(scene: &str) -> String {
@@ -164,54 +118,7 @@ fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption(
 }
 
 /// Water with grains that do not settle, between two open faces.
-const OPEN: &str = r#"
-title = "Grains come in with the water"
-dimension = 2
-[run]
-end = 1.5
-[numerics]
-spacing = 0.05
-gravity = [0.0, -1e-3]
-[suspension.settling]
-grain_diameter = "1 mm"
-grain_density = 1001.0
-settling_velocity = 0.0
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.bottom]
-polyline = [[0.0, 0.0], [1.0, 0.0]]
-condition = "free-slip"
-[wall.outlet]
-polyline = [[1.0, 0.0], [1.0, 0.5]]
-[wall.outlet.open-boundary.outflow]
-memory = "1 s"
-[wall.top]
-polyline = [[1.0, 0.5], [0.0, 0.5]]
-condition = "free-slip"
-[wall.inlet]
-polyline = [[0.0, 0.5], [0.0, 0.0]]
-[wall.inlet.open-boundary.velocity-inlet]
-velocity = "1 m/s"
-values = { concentration = 0.01 }
-[phase.water]
-density = 1000.0
-speed_of_sound = 12.0
-rheology.newtonian = { viscosity = "1e-1 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.0, 0.5]]
-velocity = [1.0, 0.0]
-[probe.grains]
-kind = "statistic"
-field = "concentration"
-reduce = ["min", "max", "mean"]
-[output]
-every = 1.5
-series_every = 0.25
-vtk = false
-"#;
+const OPEN: &str = include_str!("open.toml");
 
 /// Behind an inlet with `values` the concentration is that of the inlet, and grains leave with their water.
 #[test]

@@ -19,33 +19,7 @@ fn dam() -> String {
 }
 
 /// A fluid that moves as a whole, from disorder, through a zone across its path.
-const UNIFORM: &str = r#"
-title = "A uniform flow through a zone"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.02
-periodic = { x = [0.0, 1.0], y = [0.0, 0.3] }
-jitter = 0.2
-[smoother.brezzi-pitkaranta]
-strength = 0.1
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 0.01
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.0, 0.3]]
-velocity = [1.0, 0.0]
-[zone.middle]
-box = [[0.3, -1.0], [0.7, 1.0]]
-[output]
-every = 1.0
-vtk = false
-"#;
+const UNIFORM: &str = include_str!("uniform.toml");
 
 /// A column of a checkpoint.
 fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
@@ -166,36 +140,7 @@ fn zones_that_do_not_fit_are_refused() {
 }
 
 /// A disc that is towed through a period, with a round zone.
-const TOWED: &str = r#"
-title = "A towed disc"
-dimension = 2
-[run]
-end = 0.3
-[numerics]
-spacing = 0.02
-periodic = { x = [0.0, 1.2], y = [0.0, 0.7] }
-relax = { steps = 0 }
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 5.0
-[wall.disc]
-disc = { centre = [0.9, 0.35], radius = 0.1 }
-fluid = "outside"
-motion.velocity = [1.0, 0.0]
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.2, 0.7]]
-clip = true
-[zone.near]
-disc = { centre = [0.9, 0.35], radius = 0.2 }
-follows = "disc"
-[output]
-every = 1.0
-vtk = false
-"#;
+const TOWED: &str = include_str!("towed.toml");
 
 /// The disc crosses the end of the period, and a quarter of its way the zone lies on both sides.
 #[test]
@@ -225,53 +170,7 @@ fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
 }
 
 /// A box that floats too deep, in a zone that follows it.
-const HEAVING: &str = r#"
-title = "A box heaves in a zone that follows it"
-dimension = 2
-[run]
-end = 0.15
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-relax = { steps = 0 }
-[walls.usaw]
-vertices = false
-[wall.tank]
-polyline = [[0.0, 0.6], [0.0, 0.0], [1.2, 0.0], [1.2, 0.6]]
-condition = "free-slip"
-[wall.box]
-box = [[0.5, 0.24], [0.7, 0.44]]
-fluid = "outside"
-condition = "free-slip"
-mover.rigid-body = { density = 500.0, free = ["y"] }
-[phase.water]
-density = 1000.0
-[phase.water.equation-of-state.tait]
-[phase.water.rheology.newtonian]
-viscosity = 1e-3
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.2, 0.4]]
-clip = true
-pressure = "hydrostatic"
-[probe.box]
-kind = "wall-motion"
-wall = "box"
-[probe.finer]
-kind = "wall-force"
-wall = "box"
-[probe.coarser]
-kind = "wall-force"
-wall = "box"
-[zone.near]
-box = [[0.35, 0.1], [0.85, 0.55]]
-follows = "box"
-probes = ["finer"]
-[output]
-every = 1.0
-series_every = 1e-9
-vtk = false
-"#;
+const HEAVING: &str = include_str!("heaving.toml");
 
 /// Newton's second law with the force of the finer particles gives the way of the body; with that of the coarser ones it is a
 /// tenth off.
@@ -300,39 +199,7 @@ fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
 }
 
 /// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.
-const TUBE: &str = r#"
-title = "A pulse of sound in a tube"
-dimension = 2
-[run]
-end = 0.24
-[numerics]
-spacing = 0.01
-periodic = { y = [0.0, 0.16] }
-relax = { steps = 0 }
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 1e-6
-[wall.piston]
-polyline = [[0.0, 0.16], [0.0, 0.0]]
-condition = "free-slip"
-[wall.piston.motion]
-translate = { along = [1.0, 0.0], file = "piston.csv" }
-[wall.end]
-polyline = [[1.6, 0.0], [1.6, 0.16]]
-condition = "free-slip"
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.6, 0.16]]
-[probe.before]
-kind = "pressure"
-at = [0.45, 0.08]
-[output]
-every = 1.0
-vtk = false
-"#;
+const TUBE: &str = include_str!("tube.toml");
 
 /// Sound meets both bands of a zone; 0.8 % of its peak comes back.
 #[test]

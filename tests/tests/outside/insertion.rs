@@ -100,41 +100,7 @@ impl Gate<2> for Drip {
 const FIRST: u64 = 45;
 
 /// A tank at rest and, beside it, drops that fall into an outlet.
-const SCENE: &str = r#"
-title = "A tap that drips"
-dimension = 2
-[run]
-end = 1.2
-checkpoint_every = 0.05
-[numerics]
-spacing = 0.05
-gravity = [0.0, -9.81]
-domain = [[-1, -1], [3, 2]]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = true
-[wall.tank]
-polyline = [[0, 0.6], [0, 0], [0.5, 0], [0.5, 0.6]]
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0, 0], [0.5, 0.3]]
-pressure = "hydrostatic"
-[outlet.floor]
-box = [[0.8, -0.5], [1.2, -0.2]]
-[tap.drip]
-at = [1.0, 1.0]
-every = 0.151
-mass = 2.5
-[output]
-every = 1.2
-vtk = false
-fields = ["warmth"]
-"#;
+const SCENE: &str = include_str!("tap.toml");
 
 #[test]
 fn drops_come_and_go_with_their_mass_their_columns_and_names_of_their_own() {

@@ -5,40 +5,7 @@ use sph_tests::{below, ran, scene, within};
 use winch as _;
 
 /// A block under water, away from the walls.
-const SCENE: &str = r#"
-title = "A block on a winch"
-dimension = 2
-[run]
-end = 0.05
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.tank]
-polyline = [[0, 1], [0, 0], [0.8, 0], [0.8, 1]]
-condition = "free-slip"
-[wall.block]
-box = [[0.3, 0.3], [0.5, 0.5]]
-fluid = "outside"
-condition = "free-slip"
-[wall.block.mover.winch]
-mass = 400.0
-pull = 0.0
-[phase.water]
-density = 1000.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0, 0], [0.8, 0.8]]
-clip = true
-pressure = "hydrostatic"
-[output]
-every = 0.05
-vtk = false
-"#;
+const SCENE: &str = include_str!("winch.toml");
 
 /// Velocity of the block at the end, m/s.
 fn velocity(changes: &[&str]) -> f64 {

@@ -6,37 +6,7 @@ use sph_tests::{Bench, below, bench};
 use crate::bodies::states;
 
 /// A box that is shot through a fluid without borders, and turns.
-const SHOT: &str = r#"
-title = "A box is shot through a fluid"
-dimension = 2
-[run]
-end = 0.2
-[numerics]
-spacing = 0.05
-periodic = { x = [0, 2], y = [0, 2] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.box]
-box = [[0.8, 0.8], [1.2, 1.1]]
-fluid = "outside"
-[wall.box.mover.rigid-body]
-density = 300.0
-velocity = [1.0, 0.3]
-angular_velocity = [2.0]
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "20 Pa s" }
-[body.fluid]
-phase = "fluid"
-clip = true
-box = [[0, 0], [2, 2]]
-[output]
-every = 0.2
-vtk = false
-"#;
+const SHOT: &str = include_str!("shot.toml");
 
 /// Momentum of the fluid and of the box, kg m/s.
 fn momenta(bench: &Bench, folder: &str) -> [[f64; 2]; 2] {
@@ -75,37 +45,7 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
 }
 
 /// A brick that is shot through a fluid without borders in space, and tumbles.
-const BRICK: &str = r#"
-title = "A brick is shot through a fluid"
-dimension = 3
-[run]
-end = 0.1
-[numerics]
-spacing = 0.1
-periodic = { x = [0, 1.2], y = [0, 1.2], z = [0, 1.2] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.brick]
-box = [[0.4, 0.4, 0.4], [0.8, 0.9, 0.7]]
-fluid = "outside"
-[wall.brick.mover.rigid-body]
-density = 300.0
-velocity = [1.0, 0.3, -0.2]
-angular_velocity = [2.0, -1.0, 0.5]
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "20 Pa s" }
-[body.fluid]
-phase = "fluid"
-clip = true
-box = [[0, 0, 0], [1.2, 1.2, 1.2]]
-[output]
-every = 0.1
-vtk = false
-"#;
+const BRICK: &str = include_str!("brick.toml");
 
 #[test]
 fn in_space_momentum_stays_to_rounding_as_well() {

@@ -5,53 +5,7 @@ use sph_tests::{below, bench, close, near};
 use crate::bodies::states;
 
 /// A puddle in the corner of a wide tank, and two boxes in the dry.
-const DRY: &str = r#"
-title = "Boxes in the dry"
-dimension = 2
-[run]
-end = 0.5
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-[walls.usaw]
-vertices = false
-[wall.tank]
-polyline = [[-0.4, 2], [-0.4, 0], [4, 0], [4, 2]]
-condition = "free-slip"
-[wall.dam]
-box = [[-0.1, 0.0], [0.0, 0.3]]
-fluid = "outside"
-condition = "free-slip"
-[wall.one]
-box = [[0.6, 0.01], [0.8, 0.21]]
-fluid = "outside"
-condition = "free-slip"
-[wall.one.mover.rigid-body]
-density = 500.0
-[wall.two]
-box = [[1.6, 0.01], [1.8, 0.21]]
-fluid = "outside"
-condition = "free-slip"
-[wall.two.mover.rigid-body]
-density = 1500.0
-[phase.water]
-density = 1000.0
-speed_of_sound = 30.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[-0.4, 0], [-0.1, 0.1]]
-clip = true
-pressure = "hydrostatic"
-[probe.one]
-kind = "wall-motion"
-wall = "one"
-at = [0.7, 0.11]
-[output]
-every = 0.5
-series_every = 0.002
-vtk = false
-"#;
+const DRY: &str = include_str!("dry.toml");
 
 const ONE: &str = "--set wall.one.mover.rigid-body";
 const TWO: &str = "--set wall.two.mover.rigid-body";

@@ -23,30 +23,7 @@ impl Mover<2> for Still {
 }
 
 /// A block of 10 by 5 spacings under water.
-const BLOCK: &str = r#"
-title = "A block under water"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.02
-[walls.usaw]
-vertices = false
-[wall.tank]
-box = [[0.0, 0.0], [0.6, 0.6]]
-[wall.block]
-box = [[0.2, 0.2], [0.4, 0.3]]
-fluid = "outside"
-[wall.block.mover.still]
-acceleration = 0.0
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-fill = "walls"
-"#;
+const BLOCK: &str = include_str!("block.toml");
 
 /// Force on the block along y, N.
 fn force(acceleration: f64, walls: &str) -> f64 {

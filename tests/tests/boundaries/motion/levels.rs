@@ -3,43 +3,7 @@
 use sph_tests::{CHECK_AND_RUN, bench, close};
 
 /// Syrup at rest, 0.2 m long and 0.1 m deep, whose floor tilts by 16 mm in a second.
-const SCENE: &str = r#"title = "A floor tilts"
-dimension = 2
-[run]
-end = "1.5 s"
-[numerics]
-spacing = "10 mm"
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.4
-[wall.tank]
-polyline = [[0.0, 0.2], [0.0, 0.0], [0.2, 0.0], [0.2, 0.2]]
-condition = "free-slip"
-[wall.tank.motion.levels]
-file = "levels.csv"
-places = [0.0, 0.2]
-columns = ["left", "right"]
-start = "2 s"
-[phase.syrup]
-density = 1000
-velocity_scale = 0.2
-speed_of_sound = 10
-[phase.syrup.equation-of-state.tait]
-[phase.syrup.rheology.newtonian]
-viscosity = "5 Pa s"
-[body.pool]
-phase = "syrup"
-box = [[0.0, 0.0], [0.2, 0.1]]
-pressure = "hydrostatic"
-[probe.left]
-kind = "pressure"
-at = [0.0, -0.008]
-[probe.right]
-kind = "pressure"
-at = [0.2, 0.008]
-[output]
-series_every = 0.1
-"#;
+const SCENE: &str = include_str!("levels.toml");
 
 /// Levels at the start of the run are 1 m: only what they change counts.
 const LEVELS: &str =

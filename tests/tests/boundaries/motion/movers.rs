@@ -3,46 +3,7 @@
 use sph_tests::{Bench, CHECK_AND_RUN, bench, near};
 
 /// Water between a wall and a block that slides along the floor on a spring.
-const PISTON: &str = r#"
-title = "A piston on a spring"
-dimension = 2
-[run]
-end = 5.0
-checkpoint_every = 0.5
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.piston]
-box = [[0.4, 0.0], [0.5, 0.4]]
-fluid = "outside"
-condition = "free-slip"
-[wall.piston.mover.spring]
-along = [2.0, 0.0]
-mass = 40.0
-stiffness = "4 kN/m"
-damping = "800 N s/m"
-[wall.tank]
-polyline = [[0.0, 0.4], [0.0, 0.0], [0.9, 0.0]]
-condition = "free-slip"
-[phase.water]
-density = 1000.0
-[phase.water.rheology.newtonian]
-viscosity = "10 Pa s"
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.4, 0.2]]
-pressure = "hydrostatic"
-[probe.piston]
-kind = "wall-force"
-wall = "piston"
-[output]
-every = 5.0
-vtk = false
-"#;
+const PISTON: &str = include_str!("piston.toml");
 
 /// The displacement at which the spring holds what water of the same volume presses: k s = ½ ρ g (V/(L + s))².
 fn balance() -> f64 {

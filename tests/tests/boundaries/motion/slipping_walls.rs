@@ -10,31 +10,7 @@ use sph_tests::{evaluated, scene};
 
 /// A periodic layer of shaken particles, 12 rows on a smooth floor.
 fn layer() -> Assembled<2> {
-    let text = r#"
-        title = "layer"
-        dimension = 2
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.1
-        smoothing_ratio = 2.0
-        jitter = 0.2
-        [numerics.periodic]
-        x = [0.0, 2.0]
-        [walls.usaw]
-        [wall.floor]
-        polyline = [[0.0, 0.0], [2.0, 0.0]]
-        condition = "free-slip"
-        [phase.rubber]
-        density = 1000.0
-        speed_of_sound = 20.0
-        [phase.rubber.rheology.elastic]
-        young_modulus = 1e5
-        poisson_ratio = 0.4
-        [body.layer]
-        phase = "rubber"
-        box = [[0.0, 0.0], [2.0, 1.2]]
-    "#;
+    let text = include_str!("layer.toml");
     evaluated(&scene(text, &[]))
 }
 

@@ -165,32 +165,7 @@ fn three_dimensions_are_drawn_too() {
 }
 
 /// An obstacle on the floor, inside out and with open feet, in the way of a column of water.
-const LEAKING: &str = r#"
-title = "An obstacle with open feet"
-dimension = 2
-run.end = 0.5
-[numerics]
-spacing = 0.005
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.4
-[wall.tank]
-polyline = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.4], [0.0, 0.4]]
-closed = true
-condition = "free-slip"
-[wall.obstacle]
-polyline = [[0.28, 0.0], [0.28, 0.05], [0.25, 0.05], [0.25, 0.0]]
-condition = "free-slip"
-[phase.water]
-density = 1000.0
-velocity_scale = 2.8
-[phase.water.rheology.newtonian]
-viscosity = 1e-3
-[body.column]
-phase = "water"
-box = [[0.0, 0.0], [0.1, 0.2]]
-pressure = "hydrostatic"
-"#;
+const LEAKING: &str = include_str!("leaking.toml");
 
 #[test]
 fn a_step_that_fails_beside_an_open_wall_is_not_tried_again() {
@@ -204,7 +179,7 @@ fn a_step_that_fails_beside_an_open_wall_is_not_tried_again() {
             "not tried again",
         ],
     );
-    told.says("note: scene.toml:14: wall.obstacle: its first end");
+    told.says("note: scene.toml:13: wall.obstacle: its first end");
     assert!(!told.contains("going back"), "{told}");
     assert_eq!(failed.told["retries"], 0);
 }

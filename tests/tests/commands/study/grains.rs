@@ -3,33 +3,7 @@
 use crate::study::bench;
 
 /// A few grains that fall into a box.
-const SCENE: &str = r#"title = "Grains fall"
-[run]
-end = "0.02 s"
-[grains]
-count = 20
-radius = ["9 mm", "11 mm"]
-density = "2500 kg/m³"
-gravity = [0, 0, -9.81]
-[grains.contact.linear-elastic]
-modulus = "1 MPa"
-stiffness_ratio = 0.5
-friction = 0.5
-[start.cloud]
-low = [0, 0, 0.005]
-high = [0.1, 0.1, 0.15]
-[box]
-low = [0, 0, 0]
-high = [0.1, 0.1, 0.15]
-[probe.fall]
-kind = "settlement"
-# g t²/2: nothing is touched yet.
-[reference.fall]
-kind = "value"
-probe = "fall"
-value = 0.001962
-of = "last"
-"#;
+const SCENE: &str = include_str!("grains.toml");
 
 const STUDY: &str = r#"title = "How many fall"
 scene = "grains.toml"

@@ -14,22 +14,7 @@ mod results;
 mod scaling;
 
 /// Vortices in a small box, some ten steps long.
-const STUDY: &str = r#"title = "Vortices"
-scene = "taylor-green-2d"
-error = "velocity-l1"
-set.run.end = 0.02
-
-[[vary]]
-name = "viscosity"
-entries = [
-    { name = "morris", set = { viscous-operator.morris = {} } },
-    { name = "krimi", set = { viscous-operator.krimi = {} } },
-]
-
-[[vary]]
-key = "numerics.spacing"
-values = [0.0625, 0.05, 0.04]
-"#;
+const STUDY: &str = include_str!("vortices.toml");
 
 fn bench(study: &str) -> Bench {
     let bench = bench!();

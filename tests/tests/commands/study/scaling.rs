@@ -4,21 +4,7 @@ use sph_tests::Says;
 
 use crate::study::{bench, files};
 
-const SCALING: &str = r#"title = "Solvers"
-scene = "viscous-box"
-scaling = { cost = "solve", between = "solver" }
-
-[[vary]]
-name = "solver"
-entries = [
-    { name = "direct", set = { linear-solver.cholesky = {} } },
-    { name = "iterative", set = { linear-solver.conjugate-gradient = {} } },
-]
-
-[[vary]]
-key = "numerics.spacing"
-values = [0.125, 0.0625, 0.04]
-"#;
+const SCALING: &str = include_str!("scaling.toml");
 
 #[test]
 fn a_study_tells_the_cost_of_a_solve_against_size() {

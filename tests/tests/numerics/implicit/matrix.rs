@@ -50,26 +50,7 @@ fn wedge() -> World<2> {
 
 /// A box in three dimensions.
 fn cube() -> World<3> {
-    let text = r#"
-        title = "box"
-        dimension = 3
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.125
-        smoothing_ratio = 1.3
-        [walls.usaw]
-        [wall.tank]
-        box = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]
-        [phase.fluid]
-        density = 2.0
-        speed_of_sound = 10.0
-        [phase.fluid.rheology.newtonian]
-        viscosity = 1.0
-        [body.fluid]
-        phase = "fluid"
-        fill = "walls"
-    "#;
+    let text = include_str!("cube.toml");
     disturbed(text)
 }
 

@@ -49,29 +49,7 @@ fn a_surface_that_the_scene_does_not_name_is_refused() {
 
 /// Water in a tank of 9 by 9 spacings, 14 rows deep, its particles up to 6 % of a spacing off the lattice.
 fn tank() -> Vec<(Vect<3>, f64)> {
-    let text = r#"
-        title = "a tank"
-        dimension = 3
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.1
-        smoothing_ratio = 2.0
-        gravity = [0.0, 0.0, -9.81]
-        [surface.cone-test]
-        [walls.usaw]
-        vertices = false
-        [wall.tank]
-        box = [[0.0, 0.0, 0.0], [0.9, 0.9, 2.5]]
-        open = ["z+"]
-        [phase.water]
-        density = 1000.0
-        speed_of_sound = 50.0
-        rheology.newtonian = { viscosity = "1e-3 Pa s" }
-        [body.water]
-        phase = "water"
-        box = [[0.0, 0.0, 0.0], [0.9, 0.9, 1.4]]
-    "#;
+    let text = include_str!("tank.toml");
     let mut parts = assembled::<3>(&scene(text, &[]));
     let free = &mut parts.flow.world.free;
     let mut position = free.take(fields::POSITION).expect("positions");

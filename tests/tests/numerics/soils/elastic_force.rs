@@ -63,29 +63,7 @@ fn the_force_of_a_wave_converges_with_the_second_order() {
     within(literal, 0.019..0.023, "error, measured 0.0222");
 }
 
-const CUBE: &str = r#"
-title = "An elastic block, periodic in space"
-dimension = 3
-[run]
-end = 1.0
-[numerics]
-spacing = 0.05
-smoothing_ratio = 1.5
-[numerics.periodic]
-x = [0.0, 0.5]
-y = [0.0, 1.0]
-z = [0.0, 0.5]
-[elastic-force.displacement]
-[phase.rubber]
-density = 1000.0
-speed_of_sound = 20.0
-[phase.rubber.rheology.elastic]
-young_modulus = 2.8e5
-poisson_ratio = 0.4
-[body.block]
-phase = "rubber"
-box = [[0.0, 0.0, 0.0], [0.5, 1.0, 0.5]]
-"#;
+const CUBE: &str = include_str!("cube.toml");
 
 #[test]
 fn in_space_it_is_the_same_force() {

@@ -16,42 +16,7 @@ use sph_turbulence::{
 };
 
 /// Water over a bed along x, without gravity.
-const CHANNEL: &str = r#"
-title = "Water over a bed"
-dimension = 2
-[run]
-end = 0.02
-[numerics]
-spacing = 0.01
-smoothing_ratio = 2.0
-periodic = { x = [0.0, 0.2] }
-[viscous-operator.morris]
-within = "arithmetic"
-[walls.usaw]
-vertices = false
-[wall.bed]
-polyline = [[0.0, 0.0], [0.2, 0.0]]
-condition = "free-slip"
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.2, 0.2]]
-velocity = [1.0, 0.0]
-[probe.shear]
-kind = "wall-force"
-wall = "bed"
-[probe.bed]
-kind = "friction-velocity"
-wall = "bed"
-[wall-function.log-law]
-walls = ["bed"]
-[output]
-every = 0.02
-vtk = false
-"#;
+const CHANNEL: &str = include_str!("channel.toml");
 
 /// The same in space.
 fn in_space() -> String {

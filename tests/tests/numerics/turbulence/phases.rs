@@ -10,44 +10,7 @@ use sph_turbulence::{
 use crate::turbulence::{CHANNEL, assembled};
 
 /// Water that slides over a layer of syrup, without gravity and walls but for the floor that the syrup sticks to.
-pub(crate) const OVER_A_BED: &str = r#"
-title = "Water over syrup"
-dimension = 2
-[run]
-end = 0.01
-[numerics]
-spacing = 0.01
-smoothing_ratio = 2.0
-periodic = { x = [0.0, 0.2] }
-[viscous-operator.morris]
-within = "arithmetic"
-[implicit-viscosity.backward-euler]
-[linear-solver.cholesky]
-[walls.usaw]
-vertices = false
-[wall.floor]
-polyline = [[0.0, 0.0], [0.2, 0.0]]
-condition = "free-slip"
-[phase.syrup]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1e5 Pa s" }
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.bed]
-phase = "syrup"
-box = [[0.0, 0.0], [0.2, 0.1]]
-[body.water]
-phase = "water"
-box = [[0.0, 0.1], [0.2, 0.2]]
-velocity = [1.0, 0.0]
-[output]
-every = 0.01
-vtk = false
-fields = ["velocity"]
-"#;
+pub(crate) const OVER_A_BED: &str = include_str!("over-a-bed.toml");
 
 const BED: &str = "bed = { phase = \"syrup\", roughness = 0.005 }\n";
 
