@@ -163,6 +163,20 @@ impl Bench {
         FinalState::read(&self.path(results))
     }
 
+    /// Runs the scene with one, two and four threads: all must end with the same bits.
+    #[track_caller]
+    pub fn same_on_threads(&self, set: &str) {
+        let state = |threads: u32| {
+            let run = format!("run scene.toml --quiet {set} --threads {threads}");
+            self.done(&format!("{run} --out r{threads}"));
+            self.state(&format!("r{threads}"))
+        };
+        let one = state(1);
+        for threads in [2, 4] {
+            one.assert_same(&state(threads), &format!("1 and {threads} threads"));
+        }
+    }
+
     /// Runs the scene with one and with two threads, in `one` and `two`, and in two parts, in `parts`: all must end
     /// with the same bits, which are returned.
     #[track_caller]

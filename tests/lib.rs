@@ -18,8 +18,8 @@ pub use pages::list_items;
 pub use process::{Going, get, wait_until};
 pub use results::Results;
 pub use scenes::{
-    Ran, assembled, changes, evaluated, finished, momentum, ran, refusal, run_into, same_bits,
-    scene, shipped, shipped_file, spin, step,
+    Ran, assembled, changes, evaluated, finished, momentum, move_as, ran, refusal, run_into,
+    same_bits, scene, shipped, shipped_file, spin, step,
 };
 pub use series::Series;
 pub use state::{FinalState, files_with_extension};

@@ -66,6 +66,14 @@ pub fn step<const D: usize>(parts: &mut Assembled<D>, dt: f64) {
     parts.flow.evaluate().expect("a state");
 }
 
+/// Gives every particle the velocity of its place.
+pub fn move_as<const D: usize>(parts: &mut Assembled<D>, velocity: impl Fn(&Vect<D>) -> Vect<D>) {
+    let free = &mut parts.flow.world.free;
+    let places = free.get(fields::POSITION).expect("places");
+    let velocities = places.iter().map(velocity).collect();
+    free.put(fields::VELOCITY, velocities).expect("a column");
+}
+
 /// Σ m u and Σ m |u|, kg m/s.
 pub fn momentum<const D: usize>(parts: &Assembled<D>) -> (Vect<D>, f64) {
     let free = &parts.flow.world.free;

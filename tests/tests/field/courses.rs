@@ -129,9 +129,8 @@ fn the_default_domain_goes_along_with_a_tank_on_a_recorded_course() {
     let lean = mean("left") - mean("right");
     close(lean, 0.5 / 9.81, 0.02 / 4.0, "lean in m");
     // It is not stopped in the last interval of its table.
-    let force = series.column("tank.x");
     let mass = 900.0 * 0.6 * 0.2;
-    near(force[force.len() - 1], -mass, 0.1, "force in N/m");
+    near(series.last("tank.x"), -mass, 0.1, "force in N/m");
 }
 
 #[test]

@@ -188,6 +188,6 @@ fn a_body_that_goes_too_far_in_a_step_is_told_of() {
     let warned = said("warnings");
     warned.says("half a spacing | `left`");
     assert!(said("advice").contains("run.safety"), "{}", said("advice"));
-    let fallen = *field.series().column("left.y").last().expect("a row");
+    let fallen = field.series().last("left.y");
     assert!((fallen / -0.4 - 1.0).abs() < 1e-9, "{fallen} m for -0.4 m");
 }

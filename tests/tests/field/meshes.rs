@@ -153,10 +153,7 @@ fn invalid_surfaces_are_refused_with_their_defect() {
 /// What passed the inlet and the outlet until the end of the last run, and the speed on the axis.
 fn passed(field: &Field) -> [f64; 3] {
     let series = field.series();
-    ["in.entered", "out.left", "u.x"].map(|name| {
-        let column = series.column(name);
-        column[column.len() - 1]
-    })
+    ["in.entered", "out.left", "u.x"].map(|name| series.last(name))
 }
 
 /// The pipe of `pipe-thick` without a thickness: what the fluid sees of it.
@@ -241,10 +238,7 @@ fn plates_with_a_thickness_hold_a_channel_between_open_faces() {
     let mass = |walls: &str| {
         field.write("duct.toml", format!("{scene}{walls}"));
         let series = field.ran("duct", "--threads 1");
-        ["in.entered", "out.left"].map(|name| {
-            let column = series.column(name);
-            column[column.len() - 1]
-        })
+        ["in.entered", "out.left"].map(|name| series.last(name))
     };
     let (thick, thin) = (mass(thick), mass(thin));
     for (thick, thin) in thick.iter().zip(thin) {
@@ -285,9 +279,7 @@ fn rests(keys: &str) -> f64 {
     bench.write("plate.stl", PLATE);
     bench.write("ball.txt", "50 50 27 5\n");
     bench.done("run scene.toml --quiet --out r");
-    let series = bench.series("r");
-    let top = series.column("top");
-    top[top.len() - 1]
+    bench.series("r").last("top")
 }
 
 #[test]

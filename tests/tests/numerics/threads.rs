@@ -2,34 +2,20 @@
 
 use sph_tests::{DAM_BREAK, END_OF_THE_STEP, PADDLE, SOIL, SUB_STEPS, bench, soil_with};
 
-fn same_for_all_threads(scene: &str, set: &str) {
-    let bench = bench!(scene);
-    let state = |threads: u32| {
-        bench.done(&format!(
-            "run scene.toml --quiet --out r{threads} --threads {threads} {set}"
-        ));
-        bench.state(&format!("r{threads}"))
-    };
-    let one = state(1);
-    for threads in [2, 4] {
-        one.assert_same(&state(threads), &format!("1 and {threads} threads"));
-    }
-}
-
 fn dam_break_with(tables: &str) -> String {
     format!("{DAM_BREAK}\n{tables}\n")
 }
 
 #[test]
 fn dam_breaks_and_moving_walls_give_the_same_bits() {
-    same_for_all_threads(PADDLE, "");
+    bench!(PADDLE).same_on_threads("");
     for tables in [
         "",
         "[surface.renormalised]",
         "[outlet.end]\nbeyond = 0.45",
         "[pressure.implicit]\n[surface.cone-test]",
     ] {
-        same_for_all_threads(&dam_break_with(tables), "");
+        bench!(&dam_break_with(tables)).same_on_threads("");
     }
 }
 
@@ -42,17 +28,17 @@ fn implicit_viscosities_give_the_same_bits_with_every_solver_and_scheme() {
     let solvers = solvers.map(|solver| format!("{euler}\n[linear-solver.{solver}]"));
     let stiff = "--set phase.water.rheology.newtonian.viscosity=50";
     for tables in solvers.iter().chain([&format!("{blocks}\n{half}")]) {
-        same_for_all_threads(&dam_break_with(tables), stiff);
+        bench!(&dam_break_with(tables)).same_on_threads(stiff);
     }
     // Blocks, and outer iterations.
     let mud =
         "--set phase.water.rheology={carreau={rest_viscosity=50,relaxation_time=1,exponent=0.5}}";
-    same_for_all_threads(&dam_break_with(&format!("{blocks}\n{euler}")), mud);
+    bench!(&dam_break_with(&format!("{blocks}\n{euler}"))).same_on_threads(mud);
 }
 
 #[test]
 fn soils_with_displacements_stresses_of_the_end_of_the_step_and_sub_steps_give_the_same_bits() {
     for scene in [SOIL, &soil_with(END_OF_THE_STEP), &soil_with(SUB_STEPS)] {
-        same_for_all_threads(scene, "--set run.end=0.06");
+        bench!(scene).same_on_threads("--set run.end=0.06");
     }
 }

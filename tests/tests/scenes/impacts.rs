@@ -11,8 +11,7 @@ fn a_drop_is_drawn_out_to_the_ellipse_of_monaghan() {
     let run = finished("elliptical-drop", &[]);
     run.error("semi-axis-x", 0.01, 0.0095);
     run.error("semi-axis-y", 0.01, 0.0044);
-    let kinetic = run.column("kinetic_energy");
-    let lost = 1.0 - kinetic.last().expect("rows") / kinetic[0];
+    let lost = 1.0 - run.last("kinetic_energy") / run.column("kinetic_energy")[0];
     below(lost, 0.01, "energy lost, measured -0.0005");
 }
 

@@ -43,8 +43,7 @@ fn a_wave_liquefies_a_loose_bed_and_a_dense_one_stands() {
     let share = |changes: &[&str]| {
         let coarse = ["numerics.spacing=0.1", "run.end=4", "reference={}"];
         let run = finished("wave-over-sand", &[&coarse[..], changes].concat());
-        let weight = run.column("grains");
-        weight.last().expect("rows") / weight[0]
+        run.last("grains") / run.column("grains")[0]
     };
     let loose = share(&[]);
     assert!(loose < 0.05, "{loose} of its weight, 0.029 was measured");

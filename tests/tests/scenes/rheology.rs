@@ -53,13 +53,11 @@ fn a_pile_of_beads_runs_out_and_stops() {
     let run = finished("granular-pile-lajeunesse", &["numerics.spacing=0.003"]);
     let front = run.column("front");
     let run_out = |x: f64| (x - 0.102) / 0.061;
-    let last = run_out(*front.last().expect("a row"));
+    let last = run_out(run.last("front"));
     within(last, 1.2..=1.8, "heights, measured 1.69");
     let before = run_out(front[front.len() * 4 / 5]);
     assert!(last - before < 0.05, "it went on: {before} to {last}");
-    let energy = run.column("kinetic_energy");
-    let largest = energy.iter().copied().fold(0.0, f64::max);
-    let left = energy[energy.len() - 1] / largest;
+    let left = run.last("kinetic_energy") / run.series().largest("kinetic_energy");
     assert!(left < 1e-4, "{left} of the energy, measured 7e-6");
 }
 
@@ -95,9 +93,7 @@ fn a_collapsed_column_lies_still_where_the_experiment_does() {
     let last = front.len() - 1;
     let crept = front[last] - front[last - 10];
     assert!(crept < 1e-3, "{crept} m in 0.1 s, measured 1.4e-6");
-    let energy = run.column("kinetic_energy");
-    let largest = energy.iter().copied().fold(0.0, f64::max);
-    let left = energy[last] / largest;
+    let left = run.last("kinetic_energy") / run.series().largest("kinetic_energy");
     assert!(left < 1e-4, "{left} of the energy, measured 5.8e-5");
 }
 
@@ -194,8 +190,7 @@ fn a_slurry_freezes_within_six_depths_of_its_gate() {
     let [before, last] = [depths(1.9), depths(2.0)];
     assert!((4.5..6.0).contains(&last), "{last}, 4.63 was measured");
     assert!(last - before < 0.05, "it went on: {before} to {last}");
-    let behind = run.column("behind");
-    let sunk = behind[0] - behind[behind.len() - 1];
+    let sunk = run.series().change("behind");
     assert!(sunk.abs() < 0.003, "behind it has sunk by {sunk} m");
 }
 
@@ -243,8 +238,7 @@ fn a_clamped_plate_swings_without_clumps() {
     };
     let kept = largest(zeros[1], 0.5) / largest(0.0, zeros[0]);
     assert!(kept > 0.97, "{kept} of the amplitude, measured 1.01");
-    let densest = run.column("largest_density_ratio");
-    let densest = densest.iter().fold(0.0_f64, |most, rho| most.max(*rho));
+    let densest = run.series().largest("largest_density_ratio");
     assert!(densest < 1.01, "clumps of {densest} times the density");
 }
 

@@ -57,15 +57,11 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
         let change = volume[volume.len() - 1] / volume[0] - 1.0;
         below(change, 0.01, &format!("change of the {phase}"));
     }
-    let rise = |gauge: &str| {
-        let level = run.column(gauge);
-        level[level.len() - 1] - level[0]
-    };
+    let rise = |gauge: &str| run.series().change(gauge);
     let (above, ahead) = (rise("above"), rise("ahead"));
     assert!(above < -0.01, "above the slide the water rose by {above} m");
     assert!(ahead > 0.003, "ahead it rose by {ahead} m");
-    let toe = run.column("toe");
-    let gone = toe[toe.len() - 1] - toe[0];
+    let gone = rise("toe");
     assert!(gone > 0.04, "the toe went {gone} m");
 }
 

@@ -23,7 +23,7 @@ fn boxes_a_tenth_and_a_fiftieth_as_heavy_as_water_swing_about_their_draught() {
         // Water of 0.8 m less the box is 0.196 m², of which the box displaces `ratio` of itself.
         let level = (0.196 + 0.02 * ratio) / 0.8;
         let draught = level - 0.1 * ratio - 0.2;
-        let top = height.iter().copied().fold(0.0, f64::max);
+        let top = series.largest("float.y");
         within(top, draught..2.0 * draught, "m that it rises");
         let last = height[height.len() - 20..].iter().copied();
         let back = last.fold(f64::INFINITY, f64::min);

@@ -6,7 +6,7 @@ use sph_core::{Stage, Symmetric, Vect, fields};
 use sph_neighbours::interactions;
 use sph_particles::setup::Assembled;
 use sph_soil::stress::{GradientStage, Renormalised, StressDivergence};
-use sph_tests::{evaluated, scene};
+use sph_tests::{evaluated, move_as, scene};
 
 /// A periodic layer of shaken particles, 12 rows on a smooth floor.
 fn layer() -> Assembled<2> {
@@ -18,12 +18,8 @@ fn layer() -> Assembled<2> {
 #[test]
 fn a_smooth_floor_counts_in_the_strain_across_it_and_not_along_it() {
     let mut parts = layer();
+    move_as(&mut parts, |x| Vect::from([3.0 * x[1], -2.0 * x[1]]));
     let world = &mut parts.flow.world;
-    let positions = world.free.get(fields::POSITION).unwrap().to_vec();
-    let velocity = world.free.get_mut(fields::VELOCITY).unwrap();
-    for (u, x) in velocity.iter_mut().zip(&positions) {
-        *u = Vect::from([3.0 * x[1], -2.0 * x[1]]);
-    }
     let mut stage = GradientStage::<2> {
         formula: Arc::new(Renormalised::default()),
         phases: None,

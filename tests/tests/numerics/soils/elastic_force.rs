@@ -8,7 +8,7 @@ use sph_neighbours::{Interaction, interactions};
 use sph_particles::setup::Assembled;
 use sph_rheology::{DruckerPrager, Newtonian, Rheology};
 use sph_soil::stress::{Blended, Rheologies};
-use sph_tests::{DAM_BREAK, Says, assembled, changes, close, momentum, scene, within};
+use sph_tests::{DAM_BREAK, Says, assembled, changes, close, momentum, move_as, scene, within};
 
 use crate::soils::tried;
 
@@ -124,13 +124,10 @@ fn second_differences_leave_the_momentum_in_a_closed_box() {
 /// A disc that flies with `speed` (m/s) into a block of the same material, for some steps.
 fn struck(overrides: &[&str], speed: f64, steps: usize) -> f64 {
     let mut parts = tried("elastic-shear-wave", overrides).unwrap_or_else(|e| panic!("{e}"));
-    let free = &mut parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap().to_vec();
-    let velocities = free.get_mut(fields::VELOCITY).unwrap();
-    for (u, x) in velocities.iter_mut().zip(&places) {
+    move_as(&mut parts, |x| {
         let flies = (x - Vect::from([0.25, 0.4])).norm() < 0.15;
-        *u = Vect::from([speed, 0.5 * speed]) * f64::from(u8::from(flies));
-    }
+        Vect::from([speed, 0.5 * speed]) * f64::from(u8::from(flies))
+    });
     let (before, _) = momentum(&parts);
     for _ in 0..steps {
         parts.flow.evaluate().unwrap();

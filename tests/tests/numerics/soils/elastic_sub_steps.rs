@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::within;
+use sph_tests::{step, within};
 
-use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
+use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, top_at};
 use crate::soils::tried;
 
 const SUB_STEPS: &str = "elastic-force.divergence.sub_steps=true";

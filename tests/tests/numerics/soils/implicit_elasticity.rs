@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::close;
+use sph_tests::{close, step};
 
-use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
+use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, top_at};
 use crate::soils::tried;
 
 const IMPLICIT: [&str; 3] = [

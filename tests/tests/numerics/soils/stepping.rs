@@ -2,16 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use sph_core::{System, Vect, fields};
+use sph_core::{Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{evaluated, scene, spin};
-
-/// A step, and the forces after it.
-pub fn step(parts: &mut Assembled<2>, dt: f64) {
-    parts.flow.world.dt = dt;
-    parts.integrator.step(&mut parts.flow, dt).unwrap();
-    parts.flow.evaluate().unwrap();
-}
+use sph_tests::{evaluated, scene, spin, step};
 
 /// The longest step, s.
 pub fn longest(parts: &Assembled<2>) -> f64 {

@@ -10,7 +10,9 @@ use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
 use sph_particles::setup::Assembled;
 use sph_run::Start;
-use sph_tests::{FinalState, PERIODIC, Says, bench, finished, near, ran, run_into, scene, within};
+use sph_tests::{
+    FinalState, PERIODIC, Says, bench, finished, move_as, near, ran, run_into, scene, within,
+};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
 };
@@ -65,13 +67,10 @@ fn in_two_parts(text: &str) -> tempfile::TempDir {
 fn eddies(closure: &str, velocity: impl Fn(&Vect<2>) -> Vect<2>) -> (Vec<f64>, f64) {
     let open = PERIODIC.replace("periodic = { x = [0.0, 1.0], y = [0.0, 1.0] }", "");
     let text = format!("{open}\n{closure}");
-    let mut flow = assembled::<2>(&text, &[]).flow;
-    let free = &mut flow.world.free;
-    let places = free.get(fields::POSITION).expect("places");
-    let moving = places.iter().map(velocity).collect();
-    free.put(fields::VELOCITY, moving).expect("a column");
-    flow.evaluate().expect("an evaluation");
-    let world = &flow.world;
+    let mut parts = assembled::<2>(&text, &[]);
+    move_as(&mut parts, velocity);
+    parts.flow.evaluate().expect("an evaluation");
+    let world = &parts.flow.world;
     let reach = world.kernel.support_radius();
     let inside = |x: &Vect<2>| x.iter().all(|c| *c > reach && *c < 1.0 - reach);
     let eddies = world.free.get(fields::EDDY_VISCOSITY).expect("eddies");

@@ -2,7 +2,7 @@
 
 use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
-use sph_tests::{finished, near};
+use sph_tests::{finished, move_as, near};
 use sph_turbulence::{
     BED_DISTANCE, BED_FRICTION_VELOCITY, DISSIPATION, SURFACE_SHARE, TURBULENT_ENERGY, WallLaw,
 };
@@ -147,13 +147,10 @@ fn friction_along_the_lines_between_particles_leaves_solid_rotation_as_it_is() {
     let accelerations = |velocity: &dyn Fn(&Vect<2>) -> Vect<2>, viscosity: f64| {
         let text = format!("{open}\n[viscous-operator.monaghan-gingold]\n")
             .replace("viscosity = 1.0", &format!("viscosity = {viscosity}"));
-        let mut flow = assembled::<2>(&text, &[]).flow;
-        let free = &mut flow.world.free;
-        let places = free.get(fields::POSITION).expect("places");
-        let moving = places.iter().map(velocity).collect();
-        free.put(fields::VELOCITY, moving).expect("a column");
-        flow.evaluate().expect("an evaluation");
-        let rates = flow.world.free.get(fields::ACCELERATION);
+        let mut parts = assembled::<2>(&text, &[]);
+        move_as(&mut parts, velocity);
+        parts.flow.evaluate().expect("an evaluation");
+        let rates = parts.flow.world.free.get(fields::ACCELERATION);
         rates.expect("accelerations").to_vec()
     };
     let largest = |velocity: &dyn Fn(&Vect<2>) -> Vect<2>| {
