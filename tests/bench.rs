@@ -42,7 +42,7 @@ pub struct Outcome {
 }
 
 impl Bench {
-    /// A folder for a program; [`bench!`](crate::bench) names it.
+    /// A folder for a program, which the macro `bench` names.
     pub fn new(program: &'static str) -> Self {
         Bench {
             program,

@@ -2,6 +2,8 @@
 
 use sph_tests::{DAM_BREAK, Says, bench, close};
 
+use crate::hands::reals;
+
 /// A function of the plane.
 type Plane = fn(f64, f64) -> f64;
 
@@ -16,21 +18,9 @@ fn vortices(fields: &str) -> String {
     )
 }
 
-fn column(piece: &sph_io::Piece<'_>, name: &str) -> Vec<f64> {
-    let field = piece
-        .fields
-        .iter()
-        .find(|f| f.name == name)
-        .expect("the field");
-    let sph_io::FieldValues::F64(values) = &field.data else {
-        panic!("{name} is not real");
-    };
-    values.to_vec()
-}
-
 /// Largest difference to an exact field over its largest value, at the start.
 fn error(piece: &sph_io::Piece<'_>, name: &str, exact: impl Fn([f64; 2]) -> f64) -> f64 {
-    let values = column(piece, name);
+    let values = reals(piece, name);
     let exact: Vec<f64> = piece.points.iter().map(|x| exact([x[0], x[1]])).collect();
     let scale = exact.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     let apart = values.iter().zip(&exact).map(|(v, e)| (v - e).abs());
@@ -47,8 +37,8 @@ fn vorticity_and_shear_stress_of_vortices_are_1_75_percent_small_and_q_3_5_as_th
     ));
     bench.done("run scene.toml -q --threads 1 --out a");
     let (piece, _) = sph_io::read_vtu(bench.path("a/fields/fluid_000000.vtu")).expect("a frame");
-    let velocity = column(&piece, "velocity");
-    let speed = column(&piece, "speed");
+    let velocity = reals(&piece, "velocity");
+    let speed = reals(&piece, "speed");
     for (u, speed) in velocity.chunks(3).zip(&speed) {
         assert!((u[0].hypot(u[1]) - speed).abs() <= 1e-15);
     }

