@@ -6,7 +6,21 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::{FinalState, Says, Series};
+use crate::{FinalState, Says, Series, refusals};
+
+/// A folder for the program of the tests, with `scene.toml` in it if a scene is given.
+#[macro_export]
+macro_rules! bench {
+    () => {
+        $crate::Bench::new(env!("CARGO_BIN_EXE_sph-under-test"))
+    };
+    ($scene:expr $(,)?) => {
+        $crate::Bench::with(env!("CARGO_BIN_EXE_sph-under-test"), $scene)
+    };
+}
+
+/// The calls that read a scene.
+pub const CHECK_AND_RUN: [&str; 2] = ["check scene.toml", "run scene.toml"];
 
 /// A temporary folder in which the program is called.
 pub struct Bench {
@@ -28,7 +42,7 @@ pub struct Outcome {
 }
 
 impl Bench {
-    /// A folder for a program, given as `env!("CARGO_BIN_EXE_sph-under-test")`.
+    /// A folder for a program, which the macro `bench` names.
     pub fn new(program: &'static str) -> Self {
         Bench {
             program,
@@ -100,6 +114,32 @@ impl Bench {
         self.call(words).ended(1)
     }
 
+    /// These calls refuse a file with each change of a list of [`refusals`], at the line that it names, and write nothing.
+    #[track_caller]
+    pub fn refuses(&self, file: &str, calls: &[&str], text: &str, changes: &'static str) {
+        for case in refusals(changes) {
+            let changed = case.of(text);
+            self.write(file, &changed);
+            let names = self.names();
+            for call in calls {
+                let refused = self.refused(call);
+                case.is_told(&refused.err, file, &changed);
+                assert_eq!(self.names(), names, "something was written");
+            }
+        }
+    }
+
+    /// `check` accepts a scene with each change of a list of [`refusals`] and remarks on it.
+    #[track_caller]
+    pub fn remarks(&self, scene: &str, changes: &'static str) {
+        for case in refusals(changes) {
+            let changed = case.of(scene);
+            self.write("scene.toml", &changed);
+            let told = self.done("check scene.toml").out;
+            case.is_told(&told, "scene.toml", &changed);
+        }
+    }
+
     /// A file of the folder as JSON.
     #[track_caller]
     pub fn json(&self, name: &str) -> Json {
@@ -121,6 +161,20 @@ impl Bench {
     /// The state that a folder of results ends with.
     pub fn state(&self, results: &str) -> FinalState {
         FinalState::read(&self.path(results))
+    }
+
+    /// Runs the scene with one, two and four threads: all must end with the same bits.
+    #[track_caller]
+    pub fn same_on_threads(&self, set: &str) {
+        let state = |threads: u32| {
+            let run = format!("run scene.toml --quiet {set} --threads {threads}");
+            self.done(&format!("{run} --out r{threads}"));
+            self.state(&format!("r{threads}"))
+        };
+        let one = state(1);
+        for threads in [2, 4] {
+            one.assert_same(&state(threads), &format!("1 and {threads} threads"));
+        }
     }
 
     /// Runs the scene with one and with two threads, in `one` and `two`, and in two parts, in `parts`: all must end

@@ -12,18 +12,21 @@ mod series;
 mod state;
 mod texts;
 
-pub use bench::{Bench, Outcome};
+pub use bench::{Bench, CHECK_AND_RUN, Outcome};
 pub use disk::Disk;
 pub use pages::list_items;
 pub use process::{Going, get, wait_until};
 pub use results::Results;
 pub use scenes::{
-    Ran, assembled, changes, evaluated, ran, refusal, run_into, same_bits, scene, shipped,
-    shipped_file, step,
+    Ran, assembled, changes, evaluated, finished, momentum, move_as, ran, refusal, run_into,
+    same_bits, scene, shipped, shipped_file, spin, step,
 };
 pub use series::Series;
 pub use state::{FinalState, files_with_extension};
-pub use texts::{Refusal, Says, binary_stl, close, exchanged, line_of, near, one_line, refusals};
+pub use texts::{
+    Refusal, Says, assembly_refuses, below, binary_stl, close, exchanged, line_of, near, one_line,
+    refusals, within,
+};
 
 /// A dam break in a box: 180 particles, some hundred steps, a fraction of a second.
 pub const DAM_BREAK: &str = include_str!("scenes/dam-break.toml");

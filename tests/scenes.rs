@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_core::System;
+use sph_core::{System, Vect, fields};
 use sph_particles::setup::{Assembled, assemble};
 use sph_particles::{RunError, Summary, run};
 use sph_run::{Identity, RunOptions, Start};
@@ -66,6 +66,35 @@ pub fn step<const D: usize>(parts: &mut Assembled<D>, dt: f64) {
     parts.flow.evaluate().expect("a state");
 }
 
+/// Gives every particle the velocity of its place.
+pub fn move_as<const D: usize>(parts: &mut Assembled<D>, velocity: impl Fn(&Vect<D>) -> Vect<D>) {
+    let free = &mut parts.flow.world.free;
+    let places = free.get(fields::POSITION).expect("places");
+    let velocities = places.iter().map(velocity).collect();
+    free.put(fields::VELOCITY, velocities).expect("a column");
+}
+
+/// Σ m u and Σ m |u|, kg m/s.
+pub fn momentum<const D: usize>(parts: &Assembled<D>) -> (Vect<D>, f64) {
+    let free = &parts.flow.world.free;
+    let mass = free.get(fields::MASS).expect("masses");
+    let velocity = free.get(fields::VELOCITY).expect("velocities");
+    let pairs = || mass.iter().zip(velocity);
+    let sum = pairs().map(|(m, u)| u * *m).sum();
+    (sum, pairs().map(|(m, u)| m * u.norm()).sum())
+}
+
+/// Σ m x × u, kg m²/s.
+pub fn spin(parts: &Assembled<2>) -> f64 {
+    let free = &parts.flow.world.free;
+    let mass = free.get(fields::MASS).expect("masses").iter();
+    let place = free.get(fields::POSITION).expect("places");
+    let all = mass
+        .zip(place)
+        .zip(free.get(fields::VELOCITY).expect("velocities"));
+    all.map(|((m, x), u)| m * (x[0] * u[1] - x[1] * u[0])).sum()
+}
+
 /// What reading or assembling a scene is refused with.
 #[track_caller]
 pub fn refusal<const D: usize>(text: &str) -> String {
@@ -113,6 +142,12 @@ pub fn ran(scene: &Scene, threads: usize) -> Result<Ran, RunError> {
     Ok(Ran { summary, folder })
 }
 
+/// Runs a scene in a folder of its own to a good end.
+#[track_caller]
+pub fn finished(text: &str, threads: usize) -> Ran {
+    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
+}
+
 impl Ran {
     /// The folder of the results.
     pub fn folder(&self) -> &Path {
@@ -147,11 +182,10 @@ impl Ran {
 /// with the same bits. What the first part ends with is looked `at`.
 #[track_caller]
 pub fn same_bits(text: &str, steps: u32, threads: &[usize], at: impl FnOnce(&FinalState)) {
-    let run = |threads| ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"));
-    let whole = run(1).state();
+    let whole = finished(text, 1).state();
     for threads in threads {
         let told = format!("one thread and {threads}");
-        whole.assert_same(&run(*threads).state(), &told);
+        whole.assert_same(&finished(text, *threads).state(), &told);
     }
     let part = format!("run.max_steps={steps}");
     let parts = ran(&scene(text, &[&part]), 1).unwrap_or_else(|e| panic!("{e}"));

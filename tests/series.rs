@@ -44,6 +44,12 @@ impl Series {
         *self.column(name).last().expect("a row")
     }
 
+    /// What a column has changed by in the end.
+    #[track_caller]
+    pub fn change(&self, name: &str) -> f64 {
+        self.last(name) - self.column(name)[0]
+    }
+
     /// The largest value of a column.
     #[track_caller]
     pub fn largest(&self, name: &str) -> f64 {

@@ -1,9 +1,18 @@
 //! What texts must have and numbers must be, and scenes with a change that is refused.
 
+use std::fmt::Debug;
+use std::ops::RangeBounds;
+
+use serde_json::Value as Json;
+
+use crate::refusal;
+
 /// What must be said.
 pub trait Says {
     /// All of these words must be in it; ` | ` stands between two.
     fn says(&self, words: &str);
+    /// None of these words may be in it; ` | ` stands between two.
+    fn lacks(&self, words: &str);
 }
 
 impl Says for str {
@@ -12,6 +21,24 @@ impl Says for str {
         for word in words.split(" | ") {
             assert!(self.contains(word), "no `{word}` in\n{self}");
         }
+    }
+    #[track_caller]
+    fn lacks(&self, words: &str) {
+        for word in words.split(" | ") {
+            assert!(!self.contains(word), "`{word}` in\n{self}");
+        }
+    }
+}
+
+/// As it is written.
+impl Says for Json {
+    #[track_caller]
+    fn says(&self, words: &str) {
+        self.to_string().says(words);
+    }
+    #[track_caller]
+    fn lacks(&self, words: &str) {
+        self.to_string().lacks(words);
     }
 }
 
@@ -76,6 +103,29 @@ impl Refusal {
             false => exchanged(scene, &self.from.join("\n"), &to),
         }
     }
+
+    /// All that is said must be in a text, and its place in the changed file if there is one. Lines may be broken.
+    #[track_caller]
+    pub fn is_told(&self, told: &str, file: &str, changed: &str) {
+        let told = one_line(told);
+        told.says(&self.said.join(" | "));
+        if !self.at.is_empty() {
+            told.says(&format!("{file}:{}:", line_of(changed, self.at)));
+        }
+    }
+}
+
+/// Assembly refuses a scene in the plane with the changes of a file.
+pub fn assembly_refuses(scene: &str, file: &'static str) {
+    for case in refusals(file) {
+        let text = case.of(scene);
+        // Without gravity there is no pressure at rest.
+        let text = match text.contains("gravity = [") {
+            true => text,
+            false => text.replace("pressure = \"hydrostatic\"", ""),
+        };
+        refusal::<2>(&text).says(&case.said.join(" | "));
+    }
 }
 
 /// A number must be within a share of another one.
@@ -92,6 +142,21 @@ pub fn close(found: f64, wanted: f64, distance: f64, what: &str) {
     assert!(
         off < distance,
         "{what}: {found} for {wanted}, off by {off:e}"
+    );
+}
+
+/// The size of a number must be below a bound.
+#[track_caller]
+pub fn below(found: f64, bound: f64, what: &str) {
+    assert!(found.abs() < bound, "{what}: {found:e}, bound {bound:e}");
+}
+
+/// A number must be in a range.
+#[track_caller]
+pub fn within(found: f64, range: impl RangeBounds<f64> + Debug, what: &str) {
+    assert!(
+        range.contains(&found),
+        "{what}: {found} is not in {range:?}"
     );
 }
 

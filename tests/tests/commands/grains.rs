@@ -1,28 +1,9 @@
 //! Scenes of grains through the program: results, bits, failures, bad input.
 
-use sph_tests::{Bench, files_with_extension, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, bench, files_with_extension, refusals};
 
 /// Sixty grains that fall into a box.
-const DRY: &str = r#"title = "Grains fall"
-[run]
-end = "0.2 s"
-[grains]
-count = 60
-radius = ["9 mm", "11 mm"]
-density = "2500 kg/m³"
-gravity = [0, 0, -9.81]
-[grains.contact.linear-elastic]
-modulus = "1 MPa"
-stiffness_ratio = 0.5
-friction = 0.5
-damping = 0.2
-[start.cloud]
-[box]
-low = [0, 0, 0]
-high = [0.1, 0.1, 0.15]
-"#;
+const DRY: &str = include_str!("dry.toml");
 
 /// The same in a fluid that drains through the top.
 fn wet() -> String {
@@ -43,7 +24,7 @@ fn bytes(bench: &Bench, folder: &str) -> [Vec<u8>; 2] {
 #[test]
 fn threads_and_a_stop_change_no_bit_of_dry_and_wet_grains() {
     for (scene, end) in [(DRY.to_string(), "0.2"), (wet(), "0.05")] {
-        let bench = Bench::with(PROGRAM, &scene);
+        let bench = bench!(&scene);
         let set = format!("--quiet --set run.end={end}");
         for threads in [1, 2, 4] {
             bench.done(&format!(
@@ -72,7 +53,7 @@ fn threads_and_a_stop_change_no_bit_of_dry_and_wet_grains() {
 
 #[test]
 fn a_scene_of_grains_carries_no_particles_and_the_reverse() {
-    let bench = Bench::with(PROGRAM, &wet());
+    let bench = bench!(&wet());
     let explained = bench.done("explain scene.toml").out;
     for word in ["smoothing", "kernel", "formulation", "density_rate"] {
         assert!(!explained.contains(word), "`{word}` in\n{explained}");
@@ -86,7 +67,7 @@ fn a_scene_of_grains_carries_no_particles_and_the_reverse() {
 
 /// A scene beside a file `spheres.txt` is refused, and nothing is written.
 fn refused(scene: &str, spheres: &str, told: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     bench.write("spheres.txt", spheres);
     bench.refused("run scene.toml --quiet").says(told);
     let written = bench.path("results").exists();
@@ -111,7 +92,7 @@ fn mistakes_are_reported_with_their_line_and_nothing_is_written() {
 
 #[test]
 fn a_recorded_pressure_acts_as_the_one_it_records() {
-    let bench = Bench::with(PROGRAM, &wet());
+    let bench = bench!(&wet());
     let table = "time,a,b\n0,130,130\n0.01,130,130\n9,130,130\n";
     bench.write("load.csv", table);
     let load = "{file=\"load.csv\",places=[0.0,0.1],columns=[\"a\",\"b\"],less=30.0}";
@@ -131,7 +112,7 @@ fn a_recorded_pressure_acts_as_the_one_it_records() {
 fn a_failed_run_names_the_grain_and_leaves_its_picture() {
     // Grains so soft that their own weight presses them through the floor.
     let soft = wet().replace("1 MPa", "20 Pa");
-    let bench = Bench::with(PROGRAM, &soft);
+    let bench = bench!(&soft);
     bench.failed("run scene.toml --quiet --out r").says("grain");
     for file in ["bad_state.vtu", "bad_state.png", "summary.json"] {
         assert!(bench.path("r").join(file).is_file(), "{file} is missing");
@@ -142,7 +123,7 @@ fn a_failed_run_names_the_grain_and_leaves_its_picture() {
 /// `immersed-deposition` of the method's page: weight within 1 %.
 #[test]
 fn settled_grains_rest_on_the_floor_with_their_buoyant_weight() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     bench.done("run grains-immersed-deposition --quiet --out r");
     let summary = bench.summary("r");
     for (reference, name) in [("floor-at-last", "floor"), ("fluid-at-last", "fluid")] {
@@ -154,7 +135,7 @@ fn settled_grains_rest_on_the_floor_with_their_buoyant_weight() {
 
 #[test]
 fn colours_of_a_field_that_is_not_there_are_told_with_the_nearest_name() {
-    let bench = Bench::with(PROGRAM, DRY);
+    let bench = bench!(DRY);
     let checked = |range: &str| {
         bench.call(&format!(
             "check scene.toml --set output.picture_range={range}"

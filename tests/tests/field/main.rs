@@ -19,7 +19,7 @@ mod words;
 use std::ops::Deref;
 
 use serde_json::Value as Json;
-use sph_tests::{Bench, Outcome, Series};
+use sph_tests::{Bench, Outcome, Series, bench};
 
 /// A folder with all inputs, in which the program is called.
 struct Field(Bench);
@@ -34,7 +34,7 @@ impl Deref for Field {
 impl Field {
     /// A folder of its own.
     fn new() -> Self {
-        let bench = Bench::new(env!("CARGO_BIN_EXE_sph-under-test"));
+        let bench = bench!();
         let inputs = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/inputs");
         for folder in [inputs, &format!("{inputs}/attack")] {
             let all = std::fs::read_dir(folder).expect("the inputs");

@@ -23,6 +23,12 @@ fn at(x: f64, y: [f64; 2]) -> String {
     )
 }
 
+/// The largest difference of two courses, m or rad.
+fn apart(a: &[Vec<f64>; 3], b: &[Vec<f64>; 3]) -> f64 {
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
 /// A periodic box has no border: what is moved along it takes the same course, to rounding that grows with time.
 #[test]
 fn a_body_does_not_feel_a_periodic_border() {
@@ -50,12 +56,8 @@ fn a_body_does_not_feel_a_periodic_border() {
         let there = courses(&field, input, &format!("{} {more}", at(1.0, [0.6, 0.9])));
         for x in [0.0, 0.5, 2.0] {
             let here = courses(&field, input, &format!("{} {more}", at(x, [0.6, 0.9])));
-            let apart = there.iter().flatten().zip(here.iter().flatten());
-            let most = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(
-                most < 1e-6,
-                "{input} {more}: {most:e} m or rad apart at {x} m"
-            );
+            let most = apart(&there, &here);
+            assert!(most < 1e-6, "{input} {more}: {most:e} apart at {x} m");
         }
     }
 }
@@ -106,8 +108,7 @@ fn bodies_meet_across_a_periodic_border() {
     assert!(turned > 1e-3, "it is hit off its centre: {turned} rad");
     for (x, of) in [(1.8, 0.25), (1.6, 2.05)] {
         let here = run(x, of);
-        let apart = there.iter().flatten().zip(here.iter().flatten());
-        let most = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let most = apart(&there, &here);
         assert!(most < 1e-9, "{most:e} m or rad apart at {x} m");
     }
 }

@@ -1,11 +1,9 @@
 //! Warnings, estimates and advice.
 
 use serde_json::Value as Json;
-use sph_tests::{Bench, DAM_BREAK, Says};
+use sph_tests::{DAM_BREAK, Says, bench};
 
 use super::Field;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// A tank at rest that names no numerics but its spacing.
 const TANK: &str = r#"
@@ -37,7 +35,7 @@ fn json(text: &str) -> Json {
 
 #[test]
 fn defaults_draw_no_remark_on_sound_and_slow_sound_does() {
-    let bench = Bench::with(PROGRAM, TANK);
+    let bench = bench!(TANK);
     let told = bench.done("check scene.toml --json").out;
     assert!(!said(&json(&told)).contains("Mach"), "{told}");
     let slow = "--set phase.water.speed_of_sound=7";
@@ -46,7 +44,7 @@ fn defaults_draw_no_remark_on_sound_and_slow_sound_does() {
     let mach = "the Mach number of `water` is 0.2";
     assert!(said(&json(&told)).contains(mach), "{told}");
 
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let run = |more: &str| {
         bench.done(&format!("run scene.toml --quiet --out r {more}"));
         said(&json(&bench.read("r/summary.json")))
@@ -61,7 +59,7 @@ fn defaults_draw_no_remark_on_sound_and_slow_sound_does() {
 /// Advice that is followed is silent, and its contrary is not given.
 #[test]
 fn a_slower_sound_is_advised_as_far_as_it_may_fall_and_then_no_further() {
-    let bench = Bench::with(PROGRAM, TANK);
+    let bench = bench!(TANK);
     let run = |sound: f64| {
         let set = format!("--set phase.water.speed_of_sound={sound}");
         bench.done(&format!("run scene.toml --quiet --out r {set}"));
@@ -81,7 +79,7 @@ fn a_slower_sound_is_advised_as_far_as_it_may_fall_and_then_no_further() {
 
 #[test]
 fn the_scene_of_new_has_no_remark_on_itself() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     bench.done("new pool");
     let told = bench.done("check pool.toml --json").out;
     assert_eq!(said(&json(&told)), "", "{told}");
@@ -91,7 +89,7 @@ fn the_scene_of_new_has_no_remark_on_itself() {
 
 #[test]
 fn a_phase_at_rest_has_not_the_speed_of_another() {
-    let told = Bench::new(PROGRAM).done("check elastic-beam --json").out;
+    let told = bench!().done("check elastic-beam --json").out;
     assert!(!said(&json(&told)).contains("Mach"), "{told}");
 }
 
@@ -145,7 +143,7 @@ fn steps_of_stiff_friction_are_told_with_their_remedy() {
 
 #[test]
 fn a_plugin_is_shown_where_a_scene_names_it_with_values_of_its_types() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let told = bench.done("plugins mover rigid-body").out;
     told.says(
         "[wall.NAME.mover.rigid-body] | # free = [\"x\"] | # angular_velocity = [1.0]   # rad/s",
@@ -156,7 +154,7 @@ fn a_plugin_is_shown_where_a_scene_names_it_with_values_of_its_types() {
 
 #[test]
 fn a_range_has_the_unit_of_its_field() {
-    let bench = Bench::with(PROGRAM, TANK);
+    let bench = bench!(TANK);
     bench.done("run scene.toml --quiet --out r");
     let series = bench.read("r/series.csv");
     let head = series.lines().next().expect("a head");

@@ -1,8 +1,6 @@
 //! A scene that is divided between ranks gives the bits of one process.
 
-use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, FinalState, PADDLE, SOIL, bench};
 
 /// A run's last state, after a run with these arguments.
 fn ran(bench: &Bench, out: &str, arguments: &str) -> FinalState {
@@ -13,7 +11,7 @@ fn ran(bench: &Bench, out: &str, arguments: &str) -> FinalState {
 
 /// A folder with the results that all ranks agree on, those of one in `r1`.
 fn same_on_all_ranks(scene: &str, set: &str) -> Bench {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     let one = ran(&bench, "r1", set);
     for ranks in [2, 3, 4] {
         let arguments = format!("--ranks {ranks} {set}");
@@ -36,9 +34,29 @@ fn without_references(scene: &str) -> String {
     lines.join("\n")
 }
 
+/// Schemes that go back within a step have lists that are built anew in the middle of many of them; particles are born at open
+/// faces, whatever their rank, and leave through others.
 #[test]
-fn a_dam_break_gives_the_same_bits() {
-    same_on_all_ranks(DAM_BREAK, "");
+fn flows_walls_soils_budgets_and_schemes_give_the_same_bits() {
+    let channel = without_references(include_str!("../../../scenes/channel-open-2d.toml"));
+    let coarse = "--set run.end=0.2 --set numerics.spacing=0.0625";
+    for (scene, set) in [
+        (DAM_BREAK, ""),
+        (
+            DAM_BREAK,
+            "--set run.end=0.1 --set probe.energy.kind=energy-budget",
+        ),
+        (PADDLE, ""),
+        (SOIL, "--set run.end=0.06"),
+        (&channel, coarse),
+    ] {
+        same_on_all_ranks(scene, set);
+    }
+    for integrator in ["leap-frog", "verlet", "predictor-corrector"] {
+        let scheme = format!("--set integrator.{integrator}={{}}");
+        let set = format!("{scheme} --set numerics.skin=0.02 --set run.end=0.1");
+        same_on_all_ranks(DAM_BREAK, &set);
+    }
 }
 
 /// Water strikes a box: corners of one triangle may have their water on two ranks.
@@ -55,16 +73,6 @@ fn a_renormalised_surface_gives_the_same_bits() {
         let set = format!("--set surface={{renormalised={{}}}} --set walls={{{walls}={{}}}}");
         same_on_all_ranks(DAM_BREAK, &format!("{set} --set damping.acoustic={{}}"));
     }
-}
-
-#[test]
-fn a_moving_wall_gives_the_same_bits() {
-    same_on_all_ranks(PADDLE, "");
-}
-
-#[test]
-fn a_soil_gives_the_same_bits() {
-    same_on_all_ranks(SOIL, "--set run.end=0.06");
 }
 
 /// Particles are shifted against the mean velocity of all, and a body feels the fluid of all.
@@ -87,33 +95,7 @@ fn sums_over_all_ranks_do_not_depend_on_their_number() {
 fn outlets_give_the_same_bits() {
     let scene = format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.3\n");
     let bench = same_on_all_ranks(&scene, "--set run.end=0.3");
-    assert!(
-        bench.series("r1").last("outlet.end.water") > 0.0,
-        "somebody left"
-    );
-}
-
-/// Particles are born at faces and leave through others, on whatever rank.
-#[test]
-fn open_faces_give_the_same_bits() {
-    let scene = without_references(include_str!("../../../scenes/channel-open-2d.toml"));
-    same_on_all_ranks(&scene, "--set run.end=0.2 --set numerics.spacing=0.0625");
-}
-
-/// The books of energy are those of one process.
-#[test]
-fn an_energy_budget_gives_the_same_bits() {
-    let scene = format!("{DAM_BREAK}\n[probe.energy]\nkind = \"energy-budget\"\n");
-    same_on_all_ranks(&scene, "--set run.end=0.1");
-}
-
-/// Schemes that go back within a step, where lists are built anew in the middle of many of them.
-#[test]
-fn columns_kept_within_a_step_follow_their_particles() {
-    for integrator in ["leap-frog", "verlet", "predictor-corrector"] {
-        let scene = format!("{DAM_BREAK}\n[integrator.{integrator}]\n");
-        same_on_all_ranks(&scene, "--set numerics.skin=0.02 --set run.end=0.1");
-    }
+    assert!(bench.series("r1").last("outlet.end.water") > 0.0);
 }
 
 /// Iterations add up over ranks in an order that follows their number, so that velocities differ by what a solve leaves: a
@@ -121,7 +103,7 @@ fn columns_kept_within_a_step_follow_their_particles() {
 #[test]
 fn solves_agree_to_their_tolerance() {
     let scene = format!("{DAM_BREAK}\n[implicit-viscosity.backward-euler]\n");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let (steps, viscosity) = (20.0, 50.0);
     let set = format!(
         "--set phase.water.rheology.newtonian.viscosity={viscosity} --set run.max_steps={steps}"
@@ -151,7 +133,7 @@ fn solves_agree_to_their_tolerance() {
 /// A rank that fails takes the others back with it; in the end all give up, and the first tells why.
 #[test]
 fn ranks_fail_together() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set = "--set numerics.density_bounds=[0.99,1.005] --set run.retries=2";
     let told = |ranks: u32| {
         let failed = bench.failed(&format!(
@@ -172,7 +154,7 @@ fn ranks_fail_together() {
 
 #[test]
 fn a_run_goes_on_with_another_number_of_ranks() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = ran(&bench, "whole", "");
     let out = "run scene.toml --quiet --out parts --threads 1";
     bench.failed(&format!("{out} --ranks 4 --set run.max_steps=40"));
@@ -191,7 +173,7 @@ fn indivisible_flows_are_refused_before_any_output() {
         (sweeps.as_str(), "2", whole),
         (DAM_BREAK, coarse, "some would own nothing"),
     ] {
-        let bench = Bench::with(PROGRAM, scene);
+        let bench = bench!(scene);
         let refused = bench.refused(&format!("run scene.toml --out r --ranks {ranks}"));
         refused.says(why);
         assert!(!bench.path("r").exists(), "{why}");
@@ -208,7 +190,7 @@ fn mpirun_is_left_out() {
 #[cfg(feature = "mpi")]
 #[test]
 fn mpirun_gives_the_same_bits() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let one = ran(&bench, "r1", "");
     for ranks in [1, 2, 4] {
         let out = format!("m{ranks}");
@@ -223,7 +205,7 @@ fn mpirun_gives_the_same_bits() {
 #[test]
 fn a_killed_rank_ends_the_job_and_others_go_on_from_the_checkpoint() {
     use std::time::{Duration, Instant};
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = ran(&bench, "whole", "");
     let mut job = mpirun(&bench, 4, "killed").spawn().expect("mpirun");
     let checkpoint = bench.path("killed").join("checkpoint.sph");
@@ -262,9 +244,10 @@ fn kill_a_child(parent: u32) {
 #[cfg(feature = "mpi")]
 fn mpirun(bench: &Bench, ranks: usize, out: &str) -> std::process::Command {
     let mut job = std::process::Command::new("mpirun");
+    let program = env!("CARGO_BIN_EXE_sph-under-test");
     // More ranks than cores, and in containers everybody is root.
     let call = format!(
-        "--oversubscribe --allow-run-as-root -n {ranks} {PROGRAM} run scene.toml --quiet --threads 1 --out {out}"
+        "--oversubscribe --allow-run-as-root -n {ranks} {program} run scene.toml --quiet --threads 1 --out {out}"
     );
     job.args(call.split_whitespace());
     job.current_dir(bench.folder());

@@ -1,56 +1,10 @@
 //! Beds that a flow moves: laws, the balance of the grains, the same bits, refusals.
 
 use sph_soil::sediment::Grains;
-use sph_tests::{Bench, Says, Series, close, refusal, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, Series, assembly_refuses, bench, close};
 
 /// Water over a bed along x with a bump in the middle.
-pub(super) const CHANNEL: &str = r#"
-title = "Water over sand"
-dimension = 2
-[run]
-end = 0.05
-[numerics]
-spacing = 0.01
-smoothing_ratio = 2.0
-gravity = [0.0, -9.81]
-periodic = { x = [0.0, 0.4] }
-[viscous-operator.morris]
-within = "arithmetic"
-[eddy-viscosity.mixing-length]
-depth = 0.1
-walls = ["bed"]
-[wall-function.log-law]
-walls = ["bed"]
-roughness = "2.5 mm"
-[bed-load.meyer-peter-muller]
-grain_diameter = "1 mm"
-[walls.usaw]
-vertices = false
-[wall.bed]
-polyline = [[0.0, 0.0], [0.15, 0.0], [0.2, 0.02], [0.25, 0.0], [0.4, 0.0]]
-condition = "free-slip"
-[wall.bed.erodible]
-rock = -0.1
-[phase.water]
-density = 1000.0
-speed_of_sound = 15.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.4, 0.1]]
-clip = true
-pressure = "hydrostatic"
-velocity = [1.0, 0.0]
-[probe.bed]
-kind = "bed-levels"
-wall = "bed"
-[output]
-every = 0.05
-series_every = 1e-9
-vtk = false
-"#;
+pub(super) const CHANNEL: &str = include_str!("channel.toml");
 
 /// A heap of sand in a channel of three dimensions.
 pub(super) fn in_space() -> String {
@@ -90,7 +44,7 @@ fn curve(bench: &Bench, file: &str) -> Series {
 /// The flux at every place is 8 (θ − θ_c)^1.5 √((s − 1) g d³) of the Shields number there, the threshold Soulsby's on the slope.
 #[test]
 fn the_flux_is_that_of_the_law() {
-    let bench = Bench::with(PROGRAM, CHANNEL);
+    let bench = bench!(CHANNEL);
     bench.done("run scene.toml --quiet --out out");
     let grains = Grains {
         diameter: 1e-3,
@@ -116,7 +70,7 @@ fn the_flux_is_that_of_the_law() {
 #[test]
 fn grains_are_neither_made_nor_lost() {
     for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
-        let bench = Bench::with(PROGRAM, scene);
+        let bench = bench!(scene);
         bench.done("run scene.toml --quiet --out out");
         let volume = column(&bench, "out", "bed.volume");
         let moved = curve(&bench, "out/curves/bed_0001.csv");
@@ -126,7 +80,7 @@ fn grains_are_neither_made_nor_lost() {
         assert!(worst < 1e-15, "{name}: {worst:e}");
     }
     let part = CHANNEL.replace("rock = -0.1", "from = [0.1]\nto = [0.3]");
-    let bench = Bench::with(PROGRAM, &part);
+    let bench = bench!(&part);
     bench.done("run scene.toml --quiet --out out");
     let [volume, fed] = ["bed.volume", "bed.fed"].map(|name| column(&bench, "out", name));
     let (grown, fed) = (volume.last().expect("rows"), fed.last().expect("rows"));
@@ -138,23 +92,11 @@ fn grains_are_neither_made_nor_lost() {
 #[test]
 fn beds_have_the_same_bits_on_threads_and_after_an_interruption() {
     for scene in [CHANNEL, &in_space()] {
-        Bench::with(PROGRAM, scene).same_bits("", 7);
-    }
-}
-
-/// Assembly refuses a scene with the changes of a file.
-pub(crate) fn refuses(scene: &str, file: &'static str) {
-    for case in refusals(file) {
-        let text = case.of(scene);
-        let text = match text.contains("gravity = [") {
-            true => text,
-            false => text.replace("pressure = \"hydrostatic\"", ""),
-        };
-        refusal::<2>(&text).says(&case.said.join(" | "));
+        bench!(scene).same_bits("", 7);
     }
 }
 
 #[test]
 fn beds_that_are_none_are_refused() {
-    refuses(CHANNEL, include_str!("sediment.refused"));
+    assembly_refuses(CHANNEL, include_str!("sediment.refused"));
 }

@@ -1,59 +1,11 @@
 //! Grains in suspension: shocks of settling, balance of settling and mixing, the balance of the grains, the same bits, refusals.
 
-use sph_tests::{Bench, close};
+use sph_tests::{assembly_refuses, bench, close};
 
-use crate::sediment::{CHANNEL, column, in_space, refuses};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use crate::sediment::{CHANNEL, column, in_space};
 
 /// A still column with grains at a concentration of 0.1 that are hardly heavier than water.
-const COLUMN: &str = r#"
-title = "Grains settle"
-dimension = 2
-[run]
-end = 2.0
-[numerics]
-spacing = 0.005
-smoothing_ratio = 2.0
-gravity = [0.0, -9.81]
-periodic = { x = [0.0, 0.05] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[suspension.settling]
-grain_diameter = "1 mm"
-grain_density = 1001.0
-settling_velocity = 0.05
-hindrance_exponent = 4.65
-packing = 0.6
-start = [{ body = "water", concentration = 0.1 }]
-[wall.ground]
-polyline = [[0.0, 0.0], [0.05, 0.0]]
-[phase.water]
-density = 1000.0
-speed_of_sound = 13.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.05, 0.15]]
-pressure = "hydrostatic"
-[probe.clear]
-kind = "concentration-level"
-concentration = 0.05
-[probe.deposit]
-kind = "concentration-level"
-concentration = 0.35
-[probe.grains]
-kind = "statistic"
-field = "concentration"
-weight = "mass"
-reduce = ["sum", "min", "max"]
-[output]
-every = 2.0
-series_every = 0.1
-vtk = false
-"#;
+const COLUMN: &str = include_str!("column.toml");
 
 /// A channel whose flow lifts grains.
 fn lifting(scene: &str) -> String {
@@ -67,7 +19,7 @@ fn lifting(scene: &str) -> String {
 #[test]
 fn a_suspension_settles_in_two_shocks() {
     let scene = COLUMN.replace("end = 2.0", "end = 5.0");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml --quiet --out out");
     let series = |name: &str| column(&bench, "out", name);
     let (time, clear, deposit) = (series("time"), series("clear"), series("deposit"));
@@ -110,7 +62,7 @@ fn settling_and_mixing_end_in_an_exponential() {
             "hindrance_exponent = 0.0\ndiffusivity = 4e-3",
         )
         .replace("concentration = 0.1 }", "concentration = 1e-3 }");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml --quiet --out out");
     let state = bench.state("out");
     let [places, grains] = ["position", "concentration"].map(|name| state.reals(name));
@@ -125,7 +77,7 @@ fn settling_and_mixing_end_in_an_exponential() {
 #[test]
 fn what_leaves_the_bed_is_in_the_water() {
     for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
-        let bench = Bench::with(PROGRAM, &lifting(scene));
+        let bench = bench!(&lifting(scene));
         bench.done("run scene.toml --quiet --out out");
         let series = |name: &str| column(&bench, "out", name);
         let (volume, lifted) = (series("bed.volume"), series("bed.lifted"));
@@ -146,7 +98,7 @@ fn no_grain_leaves_a_bed_up_to_the_threshold() {
     let law = "grain_diameter = \"1 mm\"";
     let shields = |critical: f64| {
         let scene = lifting(CHANNEL).replace(law, &format!("{law}\ncritical_shields = {critical}"));
-        let bench = Bench::with(PROGRAM, &scene);
+        let bench = bench!(&scene);
         bench.done("run scene.toml --quiet --out out");
         column(&bench, "out", "grains.max")
     };
@@ -157,7 +109,7 @@ fn no_grain_leaves_a_bed_up_to_the_threshold() {
 #[test]
 fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption() {
     for (name, scene) in [("plane", CHANNEL), ("space", &in_space())] {
-        let bench = Bench::with(PROGRAM, &lifting(scene));
+        let bench = bench!(&lifting(scene));
         let one = bench.same_bits("", 7);
         assert!(one.columns["concentration"].iter().any(|c| *c > 0));
         bench.done("run scene.toml --quiet --out ranks --ranks 2");
@@ -166,77 +118,25 @@ fn suspensions_have_the_same_bits_on_threads_on_ranks_and_after_an_interruption(
 }
 
 /// Water with grains that do not settle, between two open faces.
-const OPEN: &str = r#"
-title = "Grains come in with the water"
-dimension = 2
-[run]
-end = 1.5
-[numerics]
-spacing = 0.05
-gravity = [0.0, -1e-3]
-[suspension.settling]
-grain_diameter = "1 mm"
-grain_density = 1001.0
-settling_velocity = 0.0
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.bottom]
-polyline = [[0.0, 0.0], [1.0, 0.0]]
-condition = "free-slip"
-[wall.outlet]
-polyline = [[1.0, 0.0], [1.0, 0.5]]
-[wall.outlet.open-boundary.outflow]
-memory = "1 s"
-[wall.top]
-polyline = [[1.0, 0.5], [0.0, 0.5]]
-condition = "free-slip"
-[wall.inlet]
-polyline = [[0.0, 0.5], [0.0, 0.0]]
-[wall.inlet.open-boundary.velocity-inlet]
-velocity = "1 m/s"
-values = { concentration = 0.01 }
-[phase.water]
-density = 1000.0
-speed_of_sound = 12.0
-rheology.newtonian = { viscosity = "1e-1 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.0, 0.5]]
-velocity = [1.0, 0.0]
-[probe.grains]
-kind = "statistic"
-field = "concentration"
-reduce = ["min", "max", "mean"]
-[output]
-every = 1.5
-series_every = 0.25
-vtk = false
-"#;
+const OPEN: &str = include_str!("open.toml");
 
 /// Behind an inlet with `values` the concentration is that of the inlet, and grains leave with their water.
 #[test]
 fn grains_come_in_and_go_out_by_open_faces() {
-    let bench = Bench::with(PROGRAM, OPEN);
+    let bench = bench!(OPEN);
     bench.done("run scene.toml --quiet --out out");
     let [time, least, most] =
         ["time", "grains.min", "grains.max"].map(|name| column(&bench, "out", name));
     for k in 0..time.len() {
         assert!(most[k] <= 0.01 && least[k] >= 0.0);
-        assert!(
-            time[k] < 1.1 || (least[k] - 0.01).abs() < 1e-15,
-            "{}: {}",
-            time[k],
-            least[k]
-        );
+        assert!(time[k] < 1.1 || (least[k] - 0.01).abs() < 1e-15);
     }
     assert!(*time.last().expect("rows") > 1.4);
 }
 
 #[test]
 fn suspensions_that_are_none_are_refused() {
-    refuses(COLUMN, include_str!("suspension.refused"));
-    refuses(OPEN, include_str!("suspension_open.refused"));
-    refuses(&lifting(CHANNEL), include_str!("suspension_lifted.refused"));
+    assembly_refuses(COLUMN, include_str!("suspension.refused"));
+    assembly_refuses(OPEN, include_str!("suspension_open.refused"));
+    assembly_refuses(&lifting(CHANNEL), include_str!("suspension_lifted.refused"));
 }

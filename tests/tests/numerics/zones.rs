@@ -1,9 +1,7 @@
 //! Zones of finer particles: a flow passes them unchanged, mass follows mass, the same bits, refusals.
 
 use sph_io::Checkpoint;
-use sph_tests::{Bench, DAM_BREAK, Says, near, one_line, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, Says, bench, near, one_line, refusals};
 
 /// Zones for [`DAM_BREAK`], one within the other, both dry at first.
 const ZONES: &str = r#"
@@ -21,33 +19,7 @@ fn dam() -> String {
 }
 
 /// A fluid that moves as a whole, from disorder, through a zone across its path.
-const UNIFORM: &str = r#"
-title = "A uniform flow through a zone"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.02
-periodic = { x = [0.0, 1.0], y = [0.0, 0.3] }
-jitter = 0.2
-[smoother.brezzi-pitkaranta]
-strength = 0.1
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 0.01
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.0, 0.3]]
-velocity = [1.0, 0.0]
-[zone.middle]
-box = [[0.3, -1.0], [0.7, 1.0]]
-[output]
-every = 1.0
-vtk = false
-"#;
+const UNIFORM: &str = include_str!("uniform.toml");
 
 /// A column of a checkpoint.
 fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
@@ -56,6 +28,25 @@ fn column(bench: &Bench, file: &str, name: &str) -> Vec<f64> {
     match &found.data {
         sph_io::ColumnData::F64(values) => values.clone(),
         other => panic!("{name} is {other:?}"),
+    }
+}
+
+/// Mass of the coarse particles of a folder that are inside, kg.
+fn mass_around(bench: &Bench, folder: &str, inside: impl Fn(&[f64]) -> bool) -> f64 {
+    let file = format!("{folder}/checkpoint.sph");
+    let [place, mass] = ["position", "mass"].map(|name| column(bench, &file, name));
+    let pairs = place.chunks_exact(2).zip(&mass);
+    pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum()
+}
+
+/// Threads and an interruption change no bit of a scene, nor of the files of its zones.
+fn same_bits(scene: &str, steps: u32, zones: &[&str]) {
+    let bench = bench!(scene);
+    bench.same_bits("", steps);
+    for zone in zones {
+        let files = ["one", "parts"].map(|folder| format!("{folder}/checkpoint-{zone}.sph"));
+        let [a, b] = files.map(|file| column(&bench, &file, "density_constant"));
+        assert!(!a.is_empty() && a == b, "{zone}");
     }
 }
 
@@ -71,7 +62,7 @@ fn a_uniform_flow_passes_a_zone_unchanged() {
 }
 
 fn uniform(scene: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     bench.done("run scene.toml --quiet --out out");
     for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
         let velocity = column(&bench, file, "velocity");
@@ -86,7 +77,7 @@ fn uniform(scene: &str) {
 #[test]
 fn a_nested_zone_measures_its_own_probes() {
     let nested = dam().replace("probes = [\"front\"]\n", "") + "probes = [\"front\"]\n";
-    let bench = Bench::with(PROGRAM, &nested);
+    let bench = bench!(&nested);
     bench.done("run scene.toml --quiet --out out");
     let largest = |file: &str| {
         let place = column(&bench, file, "position");
@@ -94,8 +85,7 @@ fn a_nested_zone_measures_its_own_probes() {
             .chunks_exact(2)
             .fold(0.0, |most: f64, x| most.max(x[0]))
     };
-    let series = bench.series("out");
-    let front = *series.column("front").last().unwrap();
+    let front = bench.series("out").last("front");
     // A front is half a spacing before the first particle.
     let own = largest("out/checkpoint-wall-corner.sph") + 0.5 * 0.005;
     assert!((front - own).abs() < 1e-12, "{front} for {own} m");
@@ -106,44 +96,32 @@ fn a_nested_zone_measures_its_own_probes() {
 /// The mass of a zone with its band is that of the particles around that are there.
 #[test]
 fn mass_comes_into_a_zone_as_it_comes_into_its_box() {
-    let bench = Bench::with(PROGRAM, &dam());
+    let bench = bench!(&dam());
     bench.done("run scene.toml --quiet --out out");
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
-    let total = |folder: &str| -> f64 {
-        let mass = column(&bench, &format!("{folder}/checkpoint.sph"), "mass");
-        mass.iter().sum()
-    };
+    let total = |folder| mass_around(&bench, folder, |_| true);
     let (start, coarse) = (total("none"), total("out"));
     assert!((coarse / start - 1.0).abs() < 1e-14, "{coarse} kg");
-    let place = column(&bench, "out/checkpoint.sph", "position");
-    let mass = column(&bench, "out/checkpoint.sph", "mass");
     // Two supports of the finer particles around the box.
     let band = 2.0 * 4.0 * 0.01;
     let inside = |x: &[f64]| x[0] >= 0.3 - band && x[1] < 0.4 + band;
-    let pairs = place.chunks_exact(2).zip(&mass);
-    let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
-    let zone: f64 = column(&bench, "out/checkpoint-wall.sph", "mass")
-        .iter()
-        .sum();
+    let around = mass_around(&bench, "out", inside);
+    let zone = column(&bench, "out/checkpoint-wall.sph", "mass");
+    let zone = zone.iter().sum();
     assert!(around > 0.1 * start, "{around} kg came in");
     near(zone, around, 1e-12, "kg");
 }
 
 #[test]
-fn zones_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, &dam());
-    bench.same_bits("", 400);
-    for zone in ["checkpoint-wall.sph", "checkpoint-wall-corner.sph"] {
-        let [a, b] = ["one", "parts"]
-            .map(|folder| column(&bench, &format!("{folder}/{zone}"), "density_constant"));
-        assert!(!a.is_empty() && a == b, "{zone}");
-    }
+fn zones_that_rest_and_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
+    same_bits(&dam(), 400, &["wall", "wall-corner"]);
+    same_bits(HEAVING, 100, &["near"]);
 }
 
 /// A checkpoint of another run has no zones to begin with.
 #[test]
 fn a_run_with_zones_does_not_begin_from_another() {
-    let bench = Bench::with(PROGRAM, &dam());
+    let bench = bench!(&dam());
     bench.done("run scene.toml --quiet --out other --set run.end=1e-9");
     let refused = bench.refused("run scene.toml --quiet --out out --from other");
     refused.says("take `--from` out");
@@ -153,7 +131,7 @@ fn a_run_with_zones_does_not_begin_from_another() {
 #[test]
 fn zones_that_do_not_fit_are_refused() {
     for case in refusals(include_str!("zones.refused")) {
-        let bench = Bench::with(PROGRAM, &case.of(&dam()));
+        let bench = bench!(&case.of(&dam()));
         let refused = bench.refused(&format!("run scene.toml --quiet --out out {}", case.at));
         one_line(&refused.err).says(case.said[0]);
         assert!(!bench.path("out/series.csv").exists(), "nothing is written");
@@ -161,56 +139,23 @@ fn zones_that_do_not_fit_are_refused() {
 }
 
 /// A disc that is towed through a period, with a round zone.
-const TOWED: &str = r#"
-title = "A towed disc"
-dimension = 2
-[run]
-end = 0.3
-[numerics]
-spacing = 0.02
-periodic = { x = [0.0, 1.2], y = [0.0, 0.7] }
-relax = { steps = 0 }
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 5.0
-[wall.disc]
-disc = { centre = [0.9, 0.35], radius = 0.1 }
-fluid = "outside"
-motion.velocity = [1.0, 0.0]
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.2, 0.7]]
-clip = true
-[zone.near]
-disc = { centre = [0.9, 0.35], radius = 0.2 }
-follows = "disc"
-[output]
-every = 1.0
-vtk = false
-"#;
+const TOWED: &str = include_str!("towed.toml");
 
 /// The disc crosses the end of the period, and a quarter of its way the zone lies on both sides.
 #[test]
 fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
-    let bench = Bench::with(PROGRAM, TOWED);
+    let bench = bench!(TOWED);
     bench.done("run scene.toml --quiet --out out");
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
     // Radius with the band of two supports of the finer particles, m.
     let reach = 0.2 + 2.0 * 4.0 * 0.01;
     let masses = |folder: &str, way: f64| -> [f64; 2] {
-        let file = format!("{folder}/checkpoint.sph");
-        let place = column(&bench, &file, "position");
         let inside = |x: &[f64]| {
             let along = x[0] - 0.9 - way;
             let nearest = along - 1.2 * (along / 1.2).round();
             nearest.hypot(x[1] - 0.35) <= reach
         };
-        let mass = column(&bench, &file, "mass");
-        let pairs = place.chunks_exact(2).zip(&mass);
-        let around: f64 = pairs.filter(|(x, _)| inside(x)).map(|(_, m)| m).sum();
+        let around = mass_around(&bench, folder, inside);
         let zone = column(&bench, &format!("{folder}/checkpoint-near.sph"), "mass");
         [around, zone.iter().sum()]
     };
@@ -224,62 +169,16 @@ fn a_round_zone_follows_its_wall_with_the_mass_around_it() {
 }
 
 /// A box that floats too deep, in a zone that follows it.
-const HEAVING: &str = r#"
-title = "A box heaves in a zone that follows it"
-dimension = 2
-[run]
-end = 0.15
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-relax = { steps = 0 }
-[walls.usaw]
-vertices = false
-[wall.tank]
-polyline = [[0.0, 0.6], [0.0, 0.0], [1.2, 0.0], [1.2, 0.6]]
-condition = "free-slip"
-[wall.box]
-box = [[0.5, 0.24], [0.7, 0.44]]
-fluid = "outside"
-condition = "free-slip"
-mover.rigid-body = { density = 500.0, free = ["y"] }
-[phase.water]
-density = 1000.0
-[phase.water.equation-of-state.tait]
-[phase.water.rheology.newtonian]
-viscosity = 1e-3
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.2, 0.4]]
-clip = true
-pressure = "hydrostatic"
-[probe.box]
-kind = "wall-motion"
-wall = "box"
-[probe.finer]
-kind = "wall-force"
-wall = "box"
-[probe.coarser]
-kind = "wall-force"
-wall = "box"
-[zone.near]
-box = [[0.35, 0.1], [0.85, 0.55]]
-follows = "box"
-probes = ["finer"]
-[output]
-every = 1.0
-series_every = 1e-9
-vtk = false
-"#;
+const HEAVING: &str = include_str!("heaving.toml");
 
 /// Newton's second law with the force of the finer particles gives the way of the body; with that of the coarser ones it is a
 /// tenth off.
 #[test]
 fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
-    let bench = Bench::with(PROGRAM, HEAVING);
+    let bench = bench!(HEAVING);
     bench.done("run scene.toml --quiet --out out");
     let series = bench.series("out");
-    let (time, height) = (series.column("time"), series.column("box.y"));
+    let time = series.column("time");
     let mass = 500.0 * 0.2 * 0.2;
     let way = |force: &str| {
         let steps = time.windows(2).map(|t| t[1] - t[0]);
@@ -291,62 +190,21 @@ fn a_body_in_a_zone_moves_by_the_force_of_the_finer_particles() {
         });
         parts.sum::<f64>()
     };
-    let true_way = height[height.len() - 1] - height[0];
+    let true_way = series.change("box.y");
     assert!(true_way > 0.02, "{true_way} m");
     near(way("finer.y"), true_way, 0.03 * true_way, "m");
     let coarser = way("coarser.y") / true_way;
     assert!((coarser - 1.0).abs() > 0.1, "{coarser}");
 }
 
-#[test]
-fn zones_that_move_have_the_same_bits_on_threads_and_after_an_interruption() {
-    let bench = Bench::with(PROGRAM, HEAVING);
-    bench.same_bits("", 100);
-    let file = |folder: &str| format!("{folder}/checkpoint-near.sph");
-    let [a, b] = ["one", "parts"].map(|folder| column(&bench, &file(folder), "density_constant"));
-    assert!(!a.is_empty() && a == b);
-}
-
 /// A tube of 160 rows with a piston that makes a pulse of sound of 40 rows; the end answers after the run.
-const TUBE: &str = r#"
-title = "A pulse of sound in a tube"
-dimension = 2
-[run]
-end = 0.24
-[numerics]
-spacing = 0.01
-periodic = { y = [0.0, 0.16] }
-relax = { steps = 0 }
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 10.0
-[phase.fluid.equation-of-state.tait]
-[phase.fluid.rheology.newtonian]
-viscosity = 1e-6
-[wall.piston]
-polyline = [[0.0, 0.16], [0.0, 0.0]]
-condition = "free-slip"
-[wall.piston.motion]
-translate = { along = [1.0, 0.0], file = "piston.csv" }
-[wall.end]
-polyline = [[1.6, 0.0], [1.6, 0.16]]
-condition = "free-slip"
-[body.box]
-phase = "fluid"
-box = [[0.0, 0.0], [1.6, 0.16]]
-[probe.before]
-kind = "pressure"
-at = [0.45, 0.08]
-[output]
-every = 1.0
-vtk = false
-"#;
+const TUBE: &str = include_str!("tube.toml");
 
 /// Sound meets both bands of a zone; 0.8 % of its peak comes back.
 #[test]
 fn a_pulse_of_sound_returns_from_a_zone_by_less_than_a_hundredth() {
     let pressure = |zone: &str| {
-        let bench = Bench::with(PROGRAM, &format!("{TUBE}{zone}"));
+        let bench = bench!(&format!("{TUBE}{zone}"));
         // u = U sin²(πt/T) with U = 1 cm/s, T = 40 ms.
         let (speed, time) = (0.01, 0.04);
         let way = |t: f64| {

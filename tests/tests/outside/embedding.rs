@@ -17,6 +17,7 @@ mod kernel_on_slices;
 mod scene_in_memory;
 
 use sph_rheology::Elastic;
+use sph_tests::{near, within};
 
 /// Most lines of an example.
 const PAGE: usize = 60;
@@ -65,21 +66,10 @@ fn a_soil_is_elastic_then_yields_to_and_fro() {
     let law = drucker_prager_path::pellets();
     let path = drucker_prager_path::cycle(&law, 1000.0, 900);
     let [strain, stress] = path[10];
-    assert!(
-        (stress / (law.shear_modulus() * strain) - 1.0).abs() < 1e-4,
-        "{stress}"
-    );
+    near(stress, law.shear_modulus() * strain, 1e-4, "Pa");
     let limit = law.yield_stress(1000.0);
-    assert!(
-        (path[299][1] / limit - 1.0).abs() < 1e-3,
-        "{}",
-        path[299][1]
-    );
-    assert!(
-        (path[899][1] / limit + 1.0).abs() < 1e-3,
-        "{}",
-        path[899][1]
-    );
+    near(path[299][1], limit, 1e-3, "Pa");
+    near(path[899][1], -limit, 1e-3, "Pa");
     // Unloading is elastic again: two yield strains from one limit to the other.
     let [before, after] = [path[299], path[350]];
     let slope = (after[1] - before[1]) / (after[0] - before[0]);
@@ -92,10 +82,7 @@ fn helmholtz_is_solved_to_second_order() {
     let [coarse, fine] = [16, 32].map(|n| helmholtz_on_neighbours::error(n).expect("solved"));
     let order = (coarse / fine).log2();
     println!("errors {coarse:.2e} {fine:.2e}, order {order:.2}");
-    assert!(
-        (1.8..2.2).contains(&order),
-        "order {order:.2} from {coarse:.2e} and {fine:.2e}"
-    );
+    within(order, 1.8..2.2, "order");
 }
 
 #[test]

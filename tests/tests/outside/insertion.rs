@@ -6,7 +6,7 @@ use sph_contribution::{
 };
 use sph_core::{Access, Field, Scalar, StepError, Vect, plugin};
 use sph_neighbours::World;
-use sph_tests::{Ran, ran, same_bits, scene};
+use sph_tests::{finished, same_bits};
 
 contribution_kind!(
     /// What lets particles in.
@@ -100,49 +100,11 @@ impl Gate<2> for Drip {
 const FIRST: u64 = 45;
 
 /// A tank at rest and, beside it, drops that fall into an outlet.
-const SCENE: &str = r#"
-title = "A tap that drips"
-dimension = 2
-[run]
-end = 1.2
-checkpoint_every = 0.05
-[numerics]
-spacing = 0.05
-gravity = [0.0, -9.81]
-domain = [[-1, -1], [3, 2]]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = true
-[wall.tank]
-polyline = [[0, 0.6], [0, 0], [0.5, 0], [0.5, 0.6]]
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0, 0], [0.5, 0.3]]
-pressure = "hydrostatic"
-[outlet.floor]
-box = [[0.8, -0.5], [1.2, -0.2]]
-[tap.drip]
-at = [1.0, 1.0]
-every = 0.151
-mass = 2.5
-[output]
-every = 1.2
-vtk = false
-fields = ["warmth"]
-"#;
-
-fn finished(text: &str) -> Ran {
-    ran(&scene(text, &[]), 1).unwrap_or_else(|e| panic!("{e}"))
-}
+const SCENE: &str = include_str!("tap.toml");
 
 #[test]
 fn drops_come_and_go_with_their_mass_their_columns_and_names_of_their_own() {
-    let run = finished(SCENE);
+    let run = finished(SCENE, 1);
     let (summary, state) = (&run.summary, run.state());
     let born = (1.2_f64 / 0.151).floor() as u64;
     let left = &summary.left["outlet.floor.water"];
@@ -172,7 +134,8 @@ fn births_and_deaths_are_the_same_bits_on_two_threads_resumed_and_after_a_step_w
         assert!(identities.iter().any(|id| *id >= FIRST), "{identities:?}");
     });
     // A step that fails is done again in shorter ones, and nobody is born twice.
-    let run = finished(&SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3"));
+    let failing = SCENE.replace("mass = 2.5", "mass = 2.5\nfails_at = 0.3");
+    let run = finished(&failing, 1);
     let summary = &run.summary;
     assert_eq!(summary.steps_rolled_back, 1);
     assert!(summary.drift.mass.abs() < 1e-14, "{:e}", summary.drift.mass);

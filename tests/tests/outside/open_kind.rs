@@ -5,38 +5,7 @@ use sph_scene::parse;
 use sph_tests::{Ran, Says, assembled, ran, same_bits, scene};
 use tracer as _;
 
-const SCENE: &str = r#"
-title = "Heat and salt in a box at rest"
-dimension = 2
-[run]
-end = 0.5
-[numerics]
-spacing = 0.0625
-smoothing_ratio = 2.0
-periodic = { x = [0, 1], y = [0, 1] }
-[smoother]
-[shifting]
-[phase.water]
-density = 1000.0
-speed_of_sound = 4.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0, 0], [1, 1]]
-[probe.heat]
-kind = "range"
-field = "temperature"
-[probe.salt]
-kind = "range"
-field = "salinity"
-scale = 35.0
-[output]
-every = 0.25
-vtk = false
-[tracer.heat-and-salt]
-heat = 0.04
-salt = 0.02
-"#;
+const SCENE: &str = include_str!("heat-and-salt.toml");
 
 fn finished(changes: &[&str]) -> Ran {
     ran(&scene(SCENE, changes), 1).unwrap_or_else(|e| panic!("{e}"))

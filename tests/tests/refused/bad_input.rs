@@ -2,13 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, Says, exchanged, line_of, one_line, refusals};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, Says, bench, exchanged, line_of, one_line, refusals};
 
 /// The scene is refused with code 2, at the line that contains `line`, with these words, and leaves no file.
 fn refused(scene: &str, line: &str, words: &str) {
-    let bench = Bench::with(PROGRAM, scene);
+    let bench = bench!(scene);
     let number = line_of(scene, line);
     for command in ["run", "check"] {
         let refused = bench.refused(&format!("{command} scene.toml"));
@@ -50,7 +48,7 @@ fn several_mistakes_are_told_at_once() {
 
 #[test]
 fn an_unknown_path_of_an_override() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let no_value = "--set numerics.spacing | found no `=`";
     for (set, words) in [
         ("numerics.spcing=1", "did you mean `spacing` | --set:1:"),
@@ -65,7 +63,7 @@ fn an_unknown_path_of_an_override() {
 
 #[test]
 fn an_unknown_scene_file() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let near = "did you mean | `dam-break-koshizuka`";
     for (name, words) in [
         ("nosuch.toml", "`nosuch.toml` | sph scenes"),
@@ -78,7 +76,7 @@ fn an_unknown_scene_file() {
 
 #[test]
 fn bad_usage_is_code_2() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let of_run = ["--threads 0", "--resume"].map(|words| format!("run scene.toml {words}"));
     for words in ["", "run", "fly", &of_run[0], &of_run[1]] {
         bench.refused(words);
@@ -101,7 +99,7 @@ fn a_spacing_that_does_not_divide_the_distance_of_walls_is_remarked_upon() {
         )
     };
     let said = |height: f64| {
-        let outcome = Bench::with(PROGRAM, &channel(height)).done("check scene.toml");
+        let outcome = bench!(&channel(height)).done("check scene.toml");
         outcome.out + &outcome.err
     };
     let odd = one_line(&said(1.05));

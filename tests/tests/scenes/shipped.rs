@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use sph_particles::Summary;
 use sph_run::Status;
 use sph_scene::{Scene, parse};
-use sph_tests::{Ran, changes, ran, shipped, shipped_file};
+use sph_tests::{Ran, below, changes, ran, shipped, shipped_file};
 
 /// A finished run.
 pub struct Finished(Ran);
@@ -111,11 +111,7 @@ impl Finished {
         assert_eq!(summary.escaped, 0, "particles behind a wall");
         // No mass changes, but the sum is taken in another order after every sort: measured up
         // to 5e-16 for 2600 particles.
-        assert!(
-            summary.drift.mass.abs() < 1e-14,
-            "mass drift {:e}",
-            summary.drift.mass
-        );
+        below(summary.drift.mass, 1e-14, "mass drift");
     }
 
     /// The error against a reference, which must be at most `bound`: the error budget of the case, from its spacing and

@@ -1,6 +1,7 @@
 //! Water over soil, at test sizes.
 
 use crate::shipped::finished;
+use sph_tests::{below, close, within};
 
 /// Density of the bed of `movable-bed-dambreak-sand`, kg/m³.
 const BULK: f64 = 1892.0;
@@ -20,18 +21,12 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
     let front = run.last("front");
     // 16 and 8 mm have 0.91 and 1.00 m: of first order, 0.81 m with 25 mm and 1.09 m at last; the foremost particle tells
     // the front to a spacing.
-    assert!(
-        (0.81 - 0.025..1.09).contains(&front),
-        "the water is at {front} m, 0.80 was measured"
-    );
+    within(front, 0.81 - 0.025..1.09, "m, measured 0.80");
     let risen = run.last("erosion.risen");
     // The water takes the row that it runs over, to the half row that a spacing resolves. A row is the density of the bed
     // times a spacing times the length under water.
     let row = BULK * 0.025 * front;
-    assert!(
-        (0.5 * row..1.5 * row).contains(&risen),
-        "{risen} kg/m have left the bed, a row has {row}; 31 were measured"
-    );
+    within(risen / row, 0.5..1.5, "rows, measured 31 kg/m");
     assert_eq!(run.last("erosion.out"), 0.0);
     let curves = sph_io::read_table(run.path("curves/bed_0002.csv")).expect("curves");
     let of = |name: &str| curves.column(name).expect("a curve").to_vec();
@@ -43,12 +38,7 @@ fn a_dam_break_digs_its_bed_and_keeps_the_sand() {
         assert!(!out_of_the_bed, "at {} m", x[k]);
         if x[k] > front + 0.3 && x[k] < 2.9 {
             still += 1;
-            assert!(
-                (interface[k] - 0.1125).abs() < 0.002,
-                "{} m high at {} m",
-                interface[k],
-                x[k]
-            );
+            close(interface[k], 0.1125, 0.002, "m high");
             assert_eq!(limit[k], interface[k], "at {} m", x[k]);
         }
     }
@@ -65,27 +55,14 @@ fn a_slide_draws_the_water_down_and_pushes_a_crest() {
     for phase in ["slide", "water"] {
         let volume = run.column(&format!("{phase}-volume"));
         let change = volume[volume.len() - 1] / volume[0] - 1.0;
-        assert!(
-            change.abs() < 0.01,
-            "the volume of the {phase} changed by {change}"
-        );
+        below(change, 0.01, &format!("change of the {phase}"));
     }
-    let rise = |gauge: &str| {
-        let level = run.column(gauge);
-        level[level.len() - 1] - level[0]
-    };
+    let rise = |gauge: &str| run.series().change(gauge);
     let (above, ahead) = (rise("above"), rise("ahead"));
     assert!(above < -0.01, "above the slide the water rose by {above} m");
-    assert!(
-        ahead > 0.003,
-        "ahead of the slide the water rose by {ahead} m"
-    );
-    let toe = run.column("toe");
-    assert!(
-        toe[toe.len() - 1] > toe[0] + 0.04,
-        "the toe went to {} m",
-        toe[toe.len() - 1]
-    );
+    assert!(ahead > 0.003, "ahead it rose by {ahead} m");
+    let gone = rise("toe");
+    assert!(gone > 0.04, "the toe went {gone} m");
 }
 
 /// Beads slide into water 0.15 m deep. The crest that they push is slower than a solitary wave of its height, √(g(h + A)),
@@ -114,16 +91,8 @@ fn the_crest_before_a_slide_from_the_air_runs_between_two_speeds_of_theory_at_1_
         "{speed} m/s between {train} and {solitary}, {} and {} m high",
         first.1, last.1
     );
-    assert!(
-        speed > train && speed < solitary,
-        "{train} < {speed} < {solitary}"
-    );
-    assert!(
-        last.1 > 0.0 && last.1 < first.1,
-        "{} and {} m",
-        first.1,
-        last.1
-    );
+    within(speed, train..solitary, "m/s");
+    within(last.1, 0.0..first.1, "m of the last crest");
 }
 
 /// Friction that grows with the strain rate in a viscous fluid: the closed form, between the speeds that were measured.

@@ -1,6 +1,7 @@
 //! Taylor–Green vortices.
 
 use crate::shipped::{finished, second_order, whole};
+use sph_tests::{below, near};
 
 /// The budget: second order with 25 spacings to a vortex, and a quarter of M² = 0.01, by which pressures of ρU²/4 change
 /// the density.
@@ -27,10 +28,7 @@ fn the_start_of_vortices_changes_errors_by_less_than_20_per_cent_at_10_and_40_ti
         };
         let (lattice, disorder) = (with(&[]), with(&["numerics.jitter=0.2"]));
         println!("c = {speed}: {lattice} from a lattice, {disorder} from disorder");
-        assert!(
-            (lattice / disorder - 1.0).abs() < 0.2,
-            "c = {speed}: {lattice} from a lattice, {disorder} from disorder"
-        );
+        near(lattice, disorder, 0.2, &format!("c = {speed}"));
     }
 }
 
@@ -41,10 +39,7 @@ fn taylor_green_keeps_its_momentum() {
     let transport = "shifting.fickian.transport=density";
     let run = finished("taylor-green-2d", &["numerics.spacing=0.04", transport]);
     let drift = run.summary.drift.momentum;
-    assert!(
-        drift.abs() < 1e-12,
-        "momentum over Σ m|u|: {drift:e}, measured 4e-17"
-    );
+    below(drift, 1e-12, "Σ m u over Σ m|u|, measured 4e-17");
 }
 
 /// The error is that of the coarse particles alone, 0.0021; the bound is a tenth above.

@@ -86,10 +86,7 @@ fn a_piston_takes_back_what_a_wall_sends_to_it() {
     let [short, long] = [4.6, 5.1].map(height);
     let back = ((long - short) / (long + short)).abs();
     println!("{short} m and {long} m for 0.05 m: {back} of a wave comes back");
-    assert!(
-        back < 0.07,
-        "{back} of a wave comes back: {short} m, {long} m"
-    );
+    assert!(back < 0.07, "{back} back: {short} m, {long} m");
 }
 
 /// The lag over a period of 1.3 s is required to be below 0.05; a sample of the gauge is 0.015 of a period.
@@ -129,10 +126,7 @@ fn waves_on_and_against_a_current_have_its_length_and_leave() {
         let back = run.last("waves.coefficient");
         println!("{scene}: {length} m long for {theory} m, {back} comes back");
         let off = (length - theory).abs();
-        assert!(
-            off < 0.5 * (theory - still).abs(),
-            "{length} m for {theory} m"
-        );
+        assert!(off < 0.5 * (theory - still).abs(), "{length} m");
         assert!(back < 0.07, "{back} of a wave comes back");
     }
 }

@@ -1,42 +1,12 @@
 //! What the fluid gives a body it has no more.
 
 use sph_core::Vect;
-use sph_tests::Bench;
+use sph_tests::{Bench, below, bench};
 
-use crate::bodies::{PROGRAM, states};
+use crate::bodies::states;
 
 /// A box that is shot through a fluid without borders, and turns.
-const SHOT: &str = r#"
-title = "A box is shot through a fluid"
-dimension = 2
-[run]
-end = 0.2
-[numerics]
-spacing = 0.05
-periodic = { x = [0, 2], y = [0, 2] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.box]
-box = [[0.8, 0.8], [1.2, 1.1]]
-fluid = "outside"
-[wall.box.mover.rigid-body]
-density = 300.0
-velocity = [1.0, 0.3]
-angular_velocity = [2.0]
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "20 Pa s" }
-[body.fluid]
-phase = "fluid"
-clip = true
-box = [[0, 0], [2, 2]]
-[output]
-every = 0.2
-vtk = false
-"#;
+const SHOT: &str = include_str!("shot.toml");
 
 /// Momentum of the fluid and of the box, kg m/s.
 fn momenta(bench: &Bench, folder: &str) -> [[f64; 2]; 2] {
@@ -60,7 +30,7 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
         ("explicit", ""),
         ("dummies", " --set walls={\"dummy-particles\"={}}"),
     ] {
-        let bench = Bench::with(PROGRAM, SHOT);
+        let bench = bench!(SHOT);
         let run = "run scene.toml --quiet --out r --threads 1";
         bench.done(&format!("{run}{changes}"));
         let [fluid, body] = momenta(&bench, "r");
@@ -69,50 +39,17 @@ fn fluid_and_body_together_keep_their_momentum_to_rounding() {
         assert!(given > 0.3, "{name}: the fluid took {given} of it");
         for k in 0..2 {
             let lost = (fluid[k] + body[k] - start[k]).abs() / start[0];
-            assert!(
-                lost < 1e-11,
-                "{name}: {lost:e} of the momentum along axis {k} is lost"
-            );
+            below(lost, 1e-11, &format!("{name}: lost along axis {k}"));
         }
     }
 }
 
 /// A brick that is shot through a fluid without borders in space, and tumbles.
-const BRICK: &str = r#"
-title = "A brick is shot through a fluid"
-dimension = 3
-[run]
-end = 0.1
-[numerics]
-spacing = 0.1
-periodic = { x = [0, 1.2], y = [0, 1.2], z = [0, 1.2] }
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.brick]
-box = [[0.4, 0.4, 0.4], [0.8, 0.9, 0.7]]
-fluid = "outside"
-[wall.brick.mover.rigid-body]
-density = 300.0
-velocity = [1.0, 0.3, -0.2]
-angular_velocity = [2.0, -1.0, 0.5]
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "20 Pa s" }
-[body.fluid]
-phase = "fluid"
-clip = true
-box = [[0, 0, 0], [1.2, 1.2, 1.2]]
-[output]
-every = 0.1
-vtk = false
-"#;
+const BRICK: &str = include_str!("brick.toml");
 
 #[test]
 fn in_space_momentum_stays_to_rounding_as_well() {
-    let bench = Bench::with(PROGRAM, BRICK);
+    let bench = bench!(BRICK);
     bench.done("run scene.toml --quiet --out r --threads 1");
     let folder = bench.path("r");
     let [mass, velocity] = ["mass", "velocity"].map(|name| bench.state("r").reals(name));
@@ -122,10 +59,7 @@ fn in_space_momentum_stays_to_rounding_as_well() {
         let all = mass.iter().enumerate();
         let fluid: f64 = all.map(|(i, m)| m * velocity[3 * i + k]).sum();
         let lost = (fluid + body * (state.velocity[k] - start)).abs() / body;
-        assert!(
-            lost < 1e-11,
-            "{lost:e} of the momentum along axis {k} is lost"
-        );
+        below(lost, 1e-11, &format!("lost along axis {k}"));
     }
     let speed = state.velocity[0];
     assert!(speed < 0.9, "the fluid took nothing: {speed}");

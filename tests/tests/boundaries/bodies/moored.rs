@@ -1,8 +1,8 @@
 //! A body on a chain.
 
-use sph_tests::Bench;
+use sph_tests::bench;
 
-use crate::bodies::{FLOAT, PROGRAM};
+use crate::bodies::FLOAT;
 
 /// H = 0.1 N/m, w = 5 N/m and z = 0.2 m: l_s = √(z² + 2 z H/w) = 0.21909 m hang, and the chain is
 /// x + l_s − H/w acosh(1 + w z/H) = 0.35730962 m long for x = 0.2 m; T = H + w z (Faltinsen 1990).
@@ -13,7 +13,7 @@ fn the_probe_tells_the_tension_of_the_closed_form_and_the_chain_holds_the_box() 
     let probe = "[probe.bow]\nkind = \"mooring\"\nwall = \"float\"\n[output]";
     let scene = FLOAT.replacen("density = 500.0", line, 1);
     let scene = scene.replacen("[output]", probe, 1);
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml --quiet --out r --threads 1");
     let series = bench.series("r");
     let column = |name: &str| series.column(name);
@@ -35,7 +35,7 @@ fn the_probe_tells_the_tension_of_the_closed_form_and_the_chain_holds_the_box() 
 fn a_line_that_is_not_there_is_told() {
     let probe = "[probe.bow]\nkind = \"mooring\"\nwall = \"float\"\nline = 2\n[output]";
     let scene = FLOAT.replacen("[output]", probe, 1);
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let outcome = bench.call("run scene.toml --quiet --out r");
     assert_ne!(outcome.code, Some(0));
     let told = outcome.err.contains("`float` has 0 lines");

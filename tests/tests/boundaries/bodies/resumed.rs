@@ -1,13 +1,13 @@
 //! The same bits for any number of threads and after an interruption.
 
-use sph_tests::Bench;
+use sph_tests::bench;
 
-use crate::bodies::{FLOAT, PROGRAM};
+use crate::bodies::FLOAT;
 
 #[test]
 fn bodies_are_threaded_and_resumed_bit_for_bit() {
     for integrator in ["symplectic-euler", "leap-frog", "verlet"] {
-        let bench = Bench::with(PROGRAM, FLOAT);
+        let bench = bench!(FLOAT);
         let scheme = format!("--set integrator={{\"{integrator}\"={{}}}}");
         // It meets a second box, which is held by a line.
         bench.write(

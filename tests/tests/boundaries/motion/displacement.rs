@@ -1,9 +1,8 @@
 //! The way of every particle since the start: across periodic borders, and only where somebody asks
 //! for it.
 
-use sph_tests::{Bench, FinalState, PERIODIC};
+use sph_tests::{FinalState, PERIODIC, below, bench};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 const ASKED: &str = "--set output.fields=[\"displacement\"]";
 
 /// Positions in the order of identity.
@@ -18,7 +17,7 @@ fn placed(state: &FinalState, name: &str) -> Vec<[f64; 2]> {
 
 #[test]
 fn it_is_the_way_across_periodic_borders_and_costs_nothing_unasked() {
-    let bench = Bench::with(PROGRAM, PERIODIC);
+    let bench = bench!(PERIODIC);
     bench.done(&format!(
         "run scene.toml --quiet --out start {ASKED} --set run.end=1e-9"
     ));
@@ -33,19 +32,13 @@ fn it_is_the_way_across_periodic_borders_and_costs_nothing_unasked() {
         for k in 0..2 {
             // What is left of the way is a whole number of periods, of 1 m each.
             let left = from[k] + way[k] - to[k];
-            assert!(
-                (left - left.round()).abs() < 1e-6,
-                "{from:?} {way:?} {to:?}"
-            );
+            below(left - left.round(), 1e-6, "m off whole periods");
             turns += left.round().abs();
         }
         around += usize::from(turns > 0.0);
         longest = longest.max(way[0].hypot(way[1]));
     }
-    assert!(
-        around > 0,
-        "nobody crossed a border; the longest way is {longest} m"
-    );
+    assert!(around > 0, "the longest way is {longest} m");
     bench.done("run scene.toml --quiet --out without");
     let without = bench.state("without");
     assert!(!without.columns.contains_key("displacement"));

@@ -1,47 +1,9 @@
 //! Floors that follow levels from a table.
 
-use sph_tests::Bench;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{CHECK_AND_RUN, bench, close};
 
 /// Syrup at rest, 0.2 m long and 0.1 m deep, whose floor tilts by 16 mm in a second.
-const SCENE: &str = r#"title = "A floor tilts"
-dimension = 2
-[run]
-end = "1.5 s"
-[numerics]
-spacing = "10 mm"
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.4
-[wall.tank]
-polyline = [[0.0, 0.2], [0.0, 0.0], [0.2, 0.0], [0.2, 0.2]]
-condition = "free-slip"
-[wall.tank.motion.levels]
-file = "levels.csv"
-places = [0.0, 0.2]
-columns = ["left", "right"]
-start = "2 s"
-[phase.syrup]
-density = 1000
-velocity_scale = 0.2
-speed_of_sound = 10
-[phase.syrup.equation-of-state.tait]
-[phase.syrup.rheology.newtonian]
-viscosity = "5 Pa s"
-[body.pool]
-phase = "syrup"
-box = [[0.0, 0.0], [0.2, 0.1]]
-pressure = "hydrostatic"
-[probe.left]
-kind = "pressure"
-at = [0.0, -0.008]
-[probe.right]
-kind = "pressure"
-at = [0.2, 0.008]
-[output]
-series_every = 0.1
-"#;
+const SCENE: &str = include_str!("levels.toml");
 
 /// Levels at the start of the run are 1 m: only what they change counts.
 const LEVELS: &str =
@@ -49,47 +11,23 @@ const LEVELS: &str =
 
 #[test]
 fn a_floor_follows_its_table_and_the_water_the_floor() {
-    let bench = Bench::with(PROGRAM, SCENE);
+    let bench = bench!(SCENE);
     bench.write("levels.csv", LEVELS);
     bench.done("run scene.toml --quiet --threads 1 --out r");
     bench.done("run scene.toml --quiet --threads 2 --out again");
     let series = bench.read("r/series.csv");
-    assert!(
-        series == bench.read("again/series.csv"),
-        "another result on two threads"
-    );
+    assert_eq!(series, bench.read("again/series.csv"));
     let series = bench.series("r");
     let difference = series.last("left") - series.last("right");
     // ρ g 16 mm, and a tenth of a spacing of water for the particles, whose surface is known no better.
     let (wanted, bound) = (1000.0 * 9.81 * 0.016, 1000.0 * 9.81 * 0.001);
-    assert!(
-        (difference - wanted).abs() < bound,
-        "{difference} Pa between the corners, {wanted} ± {bound} Pa asked"
-    );
+    close(difference, wanted, bound, "Pa between the corners");
 }
 
 #[test]
 fn tables_that_do_not_fit_are_told_with_the_nearest_name() {
-    let bench = Bench::with(PROGRAM, SCENE);
+    let bench = bench!();
     bench.write("levels.csv", LEVELS);
-    for (from, to, told) in [
-        ("\"right\"]", "\"rihgt\"]", "did you mean `right`?"),
-        (
-            "places = [0.0, 0.2]",
-            "places = [0.2, 0.0]",
-            "places must ascend",
-        ),
-        ("\"left\", ", "", "1 columns for 2 places"),
-        ("start = \"2 s\"", "start = \"9 s\"", "no row after 9 s"),
-        (
-            "[phase.syrup]",
-            "[wall.tank.motion]\nvelocity = [1.0, 0.0]\n[phase.syrup]",
-            "no other motion",
-        ),
-    ] {
-        let wrong = SCENE.replacen(from, to, 1);
-        assert_ne!(wrong, SCENE, "{from}");
-        bench.write("wrong.toml", &wrong);
-        bench.refused("check wrong.toml").says(told);
-    }
+    let changes = include_str!("levels.refused");
+    bench.refuses("scene.toml", &CHECK_AND_RUN, SCENE, changes);
 }

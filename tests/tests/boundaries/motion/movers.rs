@@ -1,50 +1,9 @@
 //! Walls that the fluid moves.
 
-use sph_tests::Bench;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, CHECK_AND_RUN, bench, near};
 
 /// Water between a wall and a block that slides along the floor on a spring.
-const PISTON: &str = r#"
-title = "A piston on a spring"
-dimension = 2
-[run]
-end = 5.0
-checkpoint_every = 0.5
-[numerics]
-spacing = 0.02
-gravity = [0.0, -9.81]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.piston]
-box = [[0.4, 0.0], [0.5, 0.4]]
-fluid = "outside"
-condition = "free-slip"
-[wall.piston.mover.spring]
-along = [2.0, 0.0]
-mass = 40.0
-stiffness = "4 kN/m"
-damping = "800 N s/m"
-[wall.tank]
-polyline = [[0.0, 0.4], [0.0, 0.0], [0.9, 0.0]]
-condition = "free-slip"
-[phase.water]
-density = 1000.0
-[phase.water.rheology.newtonian]
-viscosity = "10 Pa s"
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.4, 0.2]]
-pressure = "hydrostatic"
-[probe.piston]
-kind = "wall-force"
-wall = "piston"
-[output]
-every = 5.0
-vtk = false
-"#;
+const PISTON: &str = include_str!("piston.toml");
 
 /// The displacement at which the spring holds what water of the same volume presses: k s = ½ ρ g (V/(L + s))².
 fn balance() -> f64 {
@@ -65,22 +24,13 @@ fn displacement(bench: &Bench, folder: &str) -> f64 {
 /// Measured: 2.0 % at 2 cm, 1.0 % at 1 cm.
 #[test]
 fn a_piston_on_a_spring_comes_to_rest_where_the_water_balances_it() {
-    let bench = Bench::with(PROGRAM, PISTON);
+    let bench = bench!(PISTON);
     bench.done("run scene.toml --quiet --out out");
     let (found, expected) = (displacement(&bench, "out"), balance());
-    let off = found / expected - 1.0;
     let bound = 0.02 / (2.0 * 0.08 / (0.4 + expected));
-    assert!(
-        off.abs() < bound,
-        "at {found:.4} m for {expected:.4} m: {off:.3}"
-    );
-    let table = bench.series("out");
-    let force = table.column("piston.x");
-    let missing = force[force.len() - 1] / (4000.0 * found) - 1.0;
-    assert!(
-        missing.abs() < 0.02,
-        "force over that of the spring, less one: {missing:.4}"
-    );
+    near(found, expected, bound, "m of the piston");
+    let force = bench.series("out").last("piston.x");
+    near(force, 4000.0 * found, 0.02, "N of the spring");
 }
 
 /// The same block as a paddle that absorbs what comes back.
@@ -105,25 +55,13 @@ fn movers_of_walls_are_resumed_and_threaded_bit_for_bit() {
 
 fn resumed_and_threaded(scene: &str) {
     let short = scene.replace("end = 5.0", "end = 0.2");
-    let bench = Bench::with(PROGRAM, &short.replace("every = 0.5", "every = 0.02"));
+    let bench = bench!(&short.replace("every = 0.5", "every = 0.02"));
     bench.same_bits("", 101);
     assert!(displacement(&bench, "one") != 0.0);
 }
 
 #[test]
 fn a_wall_has_one_motion_and_movers_are_checked() {
-    let motion = "[wall.piston.motion]\nvelocity = [1, 0]\n[wall.tank]";
-    for (from, to, told) in [
-        ("[wall.tank]", motion, "wall.piston.mover.spring"),
-        ("mover.spring", "mover.sprin", "`spring`"),
-        (
-            "along = [2.0, 0.0]",
-            "along = [2.0, 0.0, 1.0]",
-            "2 are expected",
-        ),
-        ("mass = 40.0", "mass = 0.0", "mover.spring.mass"),
-    ] {
-        let bench = Bench::with(PROGRAM, &PISTON.replace(from, to));
-        bench.refused("check scene.toml").says(told);
-    }
+    let changes = include_str!("movers.refused");
+    bench!().refuses("scene.toml", &CHECK_AND_RUN, PISTON, changes);
 }

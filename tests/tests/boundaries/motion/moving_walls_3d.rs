@@ -1,9 +1,7 @@
 //! Walls that move in space: the same bits for any number of threads, and after a kill.
 #![cfg(unix)]
 
-use sph_tests::{Bench, FinalState, STIRRER};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, FinalState, STIRRER, bench};
 
 fn run(bench: &Bench, out: &str, words: &str) -> FinalState {
     bench.done(&format!("run scene.toml --quiet --out {out} {words}"));
@@ -20,7 +18,7 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> FinalState {
 
 #[test]
 fn threads_and_kills_change_no_bit_of_a_flow_with_moving_walls_in_space() {
-    let bench = Bench::with(PROGRAM, STIRRER);
+    let bench = bench!(STIRRER);
     let whole = run(&bench, "one", "--threads 1");
     whole.assert_same(&run(&bench, "two", "--threads 2"), "1 and 2 threads");
     // While both walls move, and after one of them has stopped.

@@ -1,14 +1,12 @@
 //! Particles leave by outlets, and nothing of them is lost.
 
-use sph_tests::{Bench, DAM_BREAK, line_of};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{DAM_BREAK, bench, line_of};
 
 #[test]
 fn outflow_is_counted_and_missing_in_the_flow() {
     let outlet = "[outlet.end]\nbeyond = 0.45\n[probe.lost]\nkind = \"eroded-mass\"\n\
                   phase = \"water\"\nlevel = 10";
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{outlet}\n"));
+    let bench = bench!(&format!("{DAM_BREAK}\n{outlet}\n"));
     bench.done("run scene.toml --quiet --out r");
     let series = bench.series("r");
     let column = |name: &str| series.column(name);
@@ -36,7 +34,7 @@ fn outflow_is_counted_and_missing_in_the_flow() {
 #[test]
 fn an_outlet_where_a_body_starts_is_refused_at_its_line() {
     let scene = format!("{DAM_BREAK}\n[outlet.end]\nbox = [[0.1, 0.1], [0.15, 0.15]]\n");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let outcome = bench.refused("run scene.toml --quiet --out r");
     let said = "the body `column` stands in the outlet at the start, for instance at [";
     outcome.says(said);

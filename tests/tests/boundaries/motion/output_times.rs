@@ -1,14 +1,12 @@
 //! Output times are reached with every formulation, whatever the last digit of the clock.
 
-use sph_tests::{Bench, PERIODIC};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{PERIODIC, bench};
 
 /// Drifts in two halves ended a rounding short of these times, and the step that was left was too
 /// short for its halves to move the clock.
 #[test]
 fn a_drift_in_halves_does_not_stop_short_of_an_output() {
-    let bench = Bench::with(PROGRAM, PERIODIC);
+    let bench = bench!(PERIODIC);
     for every in ["0.0472", "0.03", "0.07", "0.013"] {
         let words = format!(
             "run scene.toml --quiet --out {every} --set run.end=0.4 --set run.max_steps=400 \

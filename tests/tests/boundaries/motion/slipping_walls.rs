@@ -6,35 +6,11 @@ use sph_core::{Stage, Symmetric, Vect, fields};
 use sph_neighbours::interactions;
 use sph_particles::setup::Assembled;
 use sph_soil::stress::{GradientStage, Renormalised, StressDivergence};
-use sph_tests::{evaluated, scene};
+use sph_tests::{evaluated, move_as, scene};
 
 /// A periodic layer of shaken particles, 12 rows on a smooth floor.
 fn layer() -> Assembled<2> {
-    let text = r#"
-        title = "layer"
-        dimension = 2
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.1
-        smoothing_ratio = 2.0
-        jitter = 0.2
-        [numerics.periodic]
-        x = [0.0, 2.0]
-        [walls.usaw]
-        [wall.floor]
-        polyline = [[0.0, 0.0], [2.0, 0.0]]
-        condition = "free-slip"
-        [phase.rubber]
-        density = 1000.0
-        speed_of_sound = 20.0
-        [phase.rubber.rheology.elastic]
-        young_modulus = 1e5
-        poisson_ratio = 0.4
-        [body.layer]
-        phase = "rubber"
-        box = [[0.0, 0.0], [2.0, 1.2]]
-    "#;
+    let text = include_str!("layer.toml");
     evaluated(&scene(text, &[]))
 }
 
@@ -42,12 +18,8 @@ fn layer() -> Assembled<2> {
 #[test]
 fn a_smooth_floor_counts_in_the_strain_across_it_and_not_along_it() {
     let mut parts = layer();
+    move_as(&mut parts, |x| Vect::from([3.0 * x[1], -2.0 * x[1]]));
     let world = &mut parts.flow.world;
-    let positions = world.free.get(fields::POSITION).unwrap().to_vec();
-    let velocity = world.free.get_mut(fields::VELOCITY).unwrap();
-    for (u, x) in velocity.iter_mut().zip(&positions) {
-        *u = Vect::from([3.0 * x[1], -2.0 * x[1]]);
-    }
     let mut stage = GradientStage::<2> {
         formula: Arc::new(Renormalised::default()),
         phases: None,

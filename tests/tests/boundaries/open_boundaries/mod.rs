@@ -11,68 +11,16 @@ use sph_particles::setup::assemble;
 use sph_particles::{Stepper, Summary};
 use sph_scene::parse;
 use sph_solver::SolverError;
-use sph_tests::{Ran, assembled, near, ran, refusals, same_bits, scene};
+use sph_tests::{Ran, assembled, finished, near, refusals, same_bits, scene};
 
 /// A channel of ten rows between an inlet and an outlet, `MORE` for what a test adds to either.
-const CHANNEL: &str = r#"
-title = "an open channel"
-dimension = 2
-[run]
-end = 0.6
-checkpoint_every = 0.1
-[numerics]
-spacing = 0.1
-[kernel.wendland-c2]
-[formulation.hu-adams]
-[integrator.symplectic-euler]
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.bottom]
-polyline = [[0.0, 0.0], [2.0, 0.0]]
-[wall.outlet]
-polyline = [[2.0, 0.0], [2.0, 1.0]]
-[wall.outlet.open-boundary.outflow]
-memory = "1 s"
-[wall.top]
-polyline = [[2.0, 1.0], [0.0, 1.0]]
-[wall.inlet]
-polyline = [[0.0, 1.0], [0.0, 0.0]]
-[wall.inlet.open-boundary.velocity-inlet]
-velocity = "1 m/s"
-phase = "mud"
-[phase.water]
-density = 1.0
-speed_of_sound = 12.0
-rheology.newtonian = { viscosity = "0.01 Pa s" }
-[phase.mud]
-density = 1.6
-speed_of_sound = 12.0
-rheology.newtonian = { viscosity = "0.1 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [2.0, 1.0]]
-velocity = [1.0, 0.0]
-[probe.passed]
-kind = "passed"
-[output]
-every = 0.6
-vtk = false
-"#;
-
-fn finished(text: &str, threads: usize) -> Ran {
-    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
-}
+const CHANNEL: &str = include_str!("channel.toml");
 
 /// What passed the faces, of which nothing is missing.
 fn passed(summary: &Summary) -> &Json {
     let passed = &summary.counts["open_boundaries"];
     let unbalanced = passed["unbalanced"].as_f64().expect("a number");
-    assert!(
-        unbalanced < 1e-12,
-        "{unbalanced:e} of what passed is missing"
-    );
+    assert!(unbalanced < 1e-12, "{unbalanced:e} is missing");
     passed
 }
 
@@ -103,10 +51,8 @@ fn stays_uniform<const D: usize>(run: &Ran) {
     let [least, largest] = run.summary.density_range;
     println!("velocity off by {off}, density {least} to {largest}");
     // A density that is off by 0.1 % is a pressure of 0.144 ρu²; sound of this strength moves particles by 0.001 c.
-    assert!(
-        off < 0.012 && least > 0.999 && largest < 1.001,
-        "velocity off by {off}, density {least} to {largest}"
-    );
+    assert!(off < 0.012, "velocity off by {off}");
+    assert!(least > 0.999 && largest < 1.001, "{least} to {largest}");
 }
 
 /// entered − left − held of every face, and what particles there are, are four sums of their own.
@@ -171,57 +117,11 @@ fn slow_rows_do_not_gather_before_an_outlet() {
         .replace("speed_of_sound = 12.0", "speed_of_sound = 15.0");
     let particles = finished(&text, 2).state().columns["mass"].len();
     // Half a row of eight before either face is in a port or not.
-    assert!(
-        particles.abs_diff(160) <= 8,
-        "{particles} particles where 160 have room"
-    );
+    assert!(particles.abs_diff(160) <= 8, "{particles} for 160");
 }
 
 /// Water that runs to a level, 11 rows deep.
-const LEVEL: &str = r#"
-title = "a level behind an outlet"
-dimension = 2
-[run]
-end = 1.2
-[numerics]
-spacing = "20 mm"
-gravity = [0.0, -9.81]
-[formulation.colagrossi-landrini]
-[integrator.symplectic-euler]
-[viscous-operator.monaghan-gingold]
-[smoother.delta-sph]
-[walls.usaw]
-vertices = false
-[wall.back]
-polyline = [[0.0, 0.8], [0.0, 0.22]]
-[wall.inlet]
-polyline = [[0.0, 0.22], [0.0, 0.0]]
-[wall.inlet.open-boundary.velocity-inlet]
-velocity = "0.61 m/s"
-[wall.floor]
-polyline = [[0.0, 0.0], [0.6, 0.0]]
-condition = "free-slip"
-[wall.tail]
-polyline = [[0.6, 0.0], [0.6, 0.4]]
-[wall.tail.open-boundary.level]
-level = "0.22 m"
-[wall.above]
-polyline = [[0.6, 0.4], [0.6, 0.8]]
-[phase.water]
-density = 1000.0
-speed_of_sound = 25.0
-equation-of-state.tait = { tension_limit = 0 }
-rheology.newtonian = { viscosity = "0.05 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.6, 0.22]]
-pressure = "hydrostatic"
-velocity = [0.61, 0.0]
-[output]
-every = 2
-series_every = 0.02
-vtk = false
-"#;
+const LEVEL: &str = include_str!("level.toml");
 
 /// Elements above the level have fluid before a part of them at most, and no more of it may pass than there is: ports that owed
 /// five particles each threw those beside them up with 2.5 m/s.

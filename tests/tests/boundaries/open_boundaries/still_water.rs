@@ -3,47 +3,7 @@
 use super::*;
 
 /// Sixteen rows of water.
-const TANK: &str = r#"
-title = "still water"
-dimension = 2
-[run]
-end = 8.0
-[numerics]
-spacing = 0.03125
-gravity = [0.0, -9.81]
-relax = { steps = 400, tolerance = 0.001 }
-[kernel.wendland-c2]
-[formulation.hu-adams]
-[integrator.symplectic-euler]
-[viscous-operator.monaghan-gingold]
-[smoother.brezzi-pitkaranta]
-[walls.usaw]
-vertices = false
-[wall.left]
-polyline = [[0.0, 0.75], [0.0, 0.0]]
-open-boundary.level = { level = 0.5 }
-[wall.floor]
-polyline = [[0.0, 0.0], [2.0, 0.0]]
-condition = "free-slip"
-[wall.right]
-polyline = [[2.0, 0.0], [2.0, 0.75]]
-open-boundary.level = { level = 0.5 }
-[phase.water]
-density = 1000.0
-speed_of_sound = 16.0
-rheology.newtonian = { viscosity = "1e-3 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [2.0, 0.5]]
-pressure = "hydrostatic"
-[gauge.middle]
-kind = "level"
-at = [1.0]
-[output]
-every = 8.0
-series_every = 0.1
-vtk = false
-"#;
+const TANK: &str = include_str!("still-water.toml");
 
 /// The faces stir the water a little. What they do is less than what water gains that falls by one row, √(2gδr).
 #[test]

@@ -2,35 +2,10 @@
 
 use crate::walls::bench::{Flowing, flowing};
 
-/// A closed box full of fluid, without gravity, with this motion along x.
-fn full_box(treatment: &str, motion: &str, velocity: &str) -> Flowing<2> {
-    flowing(&format!(
-        r#"
-title = "box"
-dimension = 2
-run.end = 10.0
-[numerics]
-spacing = 0.05
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.{treatment}]
-[wall.box]
-box = [[0.0, 0.0], [1.0, 0.6]]
-condition = "free-slip"
-motion.translate = {{ along = [1.0, 0.0], {motion} }}
-[phase.fluid]
-density = 1000.0
-speed_of_sound = 40.0
-[phase.fluid.equation-of-state.tait]
-background_pressure = 2e4
-[phase.fluid.rheology.newtonian]
-viscosity = "5 Pa s"
-[body.fluid]
-phase = "fluid"
-fill = "walls"
-{velocity}
-"#
-    ))
+/// A closed box full of fluid, without gravity, that accelerates along x, or with changes of that.
+fn full_box(treatment: &str, changes: &str) -> Flowing<2> {
+    let walls = format!("walls={{{treatment}={{}}}}");
+    flowing(include_str!("full-box.toml"), &[&walls, changes])
 }
 
 /// Slope of the pressure along x by least squares, Pa/m.
@@ -51,7 +26,7 @@ fn slope(places: &[f64], pressures: &[f64]) -> f64 {
 fn in_a_box_that_accelerates_the_pressure_falls_by_density_times_acceleration_to_4_per_cent() {
     for treatment in ["usaw", "dummy-particles"] {
         let acceleration = 5.0;
-        let mut flow = full_box(treatment, "ramp = { speed = 50.0, over = 10.0 }", "");
+        let mut flow = full_box(treatment, "");
         flow.until(0.3);
         let ([mut inside, mut at_wall, mut force], mut count) = ([0.0; 3], 0.0);
         while flow.0.flow.world.time < 0.6 {
@@ -76,13 +51,7 @@ fn in_a_box_that_accelerates_the_pressure_falls_by_density_times_acceleration_to
         assert!((inside - 1.0).abs() < 0.04, "{treatment}: {inside}");
         assert!((at_wall - 1.0).abs() < 0.04, "{treatment}: {at_wall}");
         assert!((force - 1.0).abs() < 0.04, "{treatment}: {force}");
-        assert_eq!(
-            flow.0
-                .flow
-                .escaped_from(flow.0.flow.walls.as_deref())
-                .unwrap(),
-            0
-        );
+        assert_eq!(flow.escaped(), 0);
     }
 }
 
@@ -90,9 +59,9 @@ fn in_a_box_that_accelerates_the_pressure_falls_by_density_times_acceleration_to
 #[test]
 fn a_shaken_box_keeps_its_particles_which_move_by_an_eighth_of_its_speed_at_most() {
     for treatment in ["usaw", "dummy-particles"] {
-        let motion = "sine = { amplitude = 0.1, period = 0.5 }";
-        let start = "velocity = [1.2566370614359172, 0.0]";
-        let mut flow = full_box(treatment, motion, start);
+        let shaken = "wall.box.motion.translate={along=[1.0,0.0],sine={amplitude=0.1,period=0.5}} \
+                      body.fluid.velocity=[1.2566370614359172,0.0]";
+        let mut flow = full_box(treatment, shaken);
         let count = flow.positions().len();
         let mut fastest: f64 = 0.0;
         while flow.0.flow.world.time < 1.0 {
@@ -100,13 +69,7 @@ fn a_shaken_box_keeps_its_particles_which_move_by_an_eighth_of_its_speed_at_most
             let wall = flow.0.flow.world.walls.points.velocity[0];
             let speeds = flow.velocities().iter().map(|u| (u - wall).norm());
             fastest = speeds.fold(fastest, f64::max);
-            assert_eq!(
-                flow.0
-                    .flow
-                    .escaped_from(flow.0.flow.walls.as_deref())
-                    .unwrap(),
-                0
-            );
+            assert_eq!(flow.escaped(), 0);
         }
         assert_eq!(flow.positions().len(), count);
         println!("{treatment}: {fastest:.3} m/s against the box");

@@ -22,7 +22,7 @@ fn tank<const D: usize>(treatment: &str, spacing: f64, walls: &str, depth: f64) 
             format!("1.0, 1.0, {depth}"),
         ),
     };
-    flowing(&format!(
+    let text = format!(
         r#"
 title = "tank"
 dimension = {D}
@@ -47,7 +47,8 @@ box = [[{low}], [{top}]]
 clip = true
 pressure = "hydrostatic"
 "#
-    ))
+    );
+    flowing(&text, &[])
 }
 
 /// Forces over many steps: the mean upward ones by reaction and by pressure.

@@ -1,16 +1,16 @@
 //! Flows of scenes given as text.
 
-use sph_core::{StepLimit, System, Vect, fields};
+use sph_core::{StepLimit, Vect, fields};
 use sph_neighbours::WallForce;
 use sph_particles::setup::Assembled;
-use sph_tests::{evaluated, scene};
+use sph_tests::{evaluated, scene, step};
 
 /// A flow that is stepped by hand.
 pub struct Flowing<const D: usize>(pub Assembled<D>);
 
-/// The flow of a scene, evaluated at its start.
-pub fn flowing<const D: usize>(text: &str) -> Flowing<D> {
-    Flowing(evaluated(&scene(text, &[])))
+/// The flow of a scene with changes, evaluated at its start.
+pub fn flowing<const D: usize>(text: &str, changes: &[&str]) -> Flowing<D> {
+    Flowing(evaluated(&scene(text, changes)))
 }
 
 impl<const D: usize> Flowing<D> {
@@ -19,9 +19,7 @@ impl<const D: usize> Flowing<D> {
         let parts = &mut self.0;
         let limits = parts.flow.step_limits().expect("limits");
         let dt = 0.8 * StepLimit::least(&limits).expect("a limit").dt;
-        parts.flow.world.dt = dt;
-        parts.integrator.step(&mut parts.flow, dt).expect("a step");
-        parts.flow.evaluate().expect("a state");
+        step(parts, dt);
         dt
     }
 
@@ -57,6 +55,12 @@ impl<const D: usize> Flowing<D> {
         self.masses().iter().sum()
     }
 
+    /// How many particles are behind a wall.
+    pub fn escaped(&self) -> usize {
+        let flow = &self.0.flow;
+        flow.escaped_from(flow.walls.as_deref()).expect("a count")
+    }
+
     /// Σ m a and Σ m |a|, N.
     pub fn momentum_rate(&self) -> (Vect<D>, f64) {
         let a = self.0.flow.world.free.get(fields::ACCELERATION).unwrap();
@@ -67,8 +71,7 @@ impl<const D: usize> Flowing<D> {
 
     /// Σ m u, kg m/s.
     pub fn momentum(&self) -> Vect<D> {
-        let all = self.velocities().iter().zip(self.masses());
-        all.map(|(u, m)| u * *m).sum()
+        sph_tests::momentum(&self.0).0
     }
 
     /// Forces of the fluid on the walls with their names.

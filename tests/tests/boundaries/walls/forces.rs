@@ -4,95 +4,21 @@ use sph_core::Vect;
 
 use crate::walls::bench::{Flowing, flowing};
 
-const FLUID: &str = r#"
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[phase.water]
-density = 1000.0
-velocity_scale = 3.0
-[phase.water.rheology.newtonian]
-viscosity = "1 Pa s"
-"#;
-
 /// Water falls against a paddle that turns in a tank: two walls, one of them moving.
 fn paddle(treatment: &str) -> Flowing<2> {
-    flowing(&format!(
-        r#"
-title = "paddle"
-dimension = 2
-run.end = 1.0
-[numerics]
-spacing = 0.04
-gravity = [0.5, -9.81]
-[walls.{treatment}]
-[wall.tank]
-box = [[0.0, 0.0], [1.2, 1.2]]
-[wall.paddle]
-polyline = [[0.42, 0.2], [0.62, 0.36]]
-thickness = 0.08
-motion.rotate = {{ centre = [0.52, 0.28], speed = 3.0 }}
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.2, 0.5]]
-clip = true
-pressure = "hydrostatic"
-{FLUID}"#
-    ))
+    let walls = format!("walls={{{treatment}={{}}}}");
+    flowing(include_str!("paddle.toml"), &[&walls])
 }
 
 /// A driven channel, periodic along x, with a bump on its floor.
 fn channel() -> Flowing<2> {
-    flowing(&format!(
-        r#"
-title = "channel"
-dimension = 2
-run.end = 1.0
-[numerics]
-spacing = 0.05
-driving = [4.0, 0.0]
-periodic = {{ x = [0.0, 1.5] }}
-[shifting]
-[walls.usaw]
-vertices = true
-[wall.floor]
-polyline = [[0.0, 0.0], [0.5, 0.0], [0.75, 0.2], [1.0, 0.0], [1.5, 0.0]]
-[wall.lid]
-polyline = [[1.5, 1.0], [0.0, 1.0]]
-condition = "partial-slip"
-slip_length = 0.1
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [1.5, 1.0]]
-velocity = [1.0, 0.0]
-clip = true
-{FLUID}"#
-    ))
+    flowing(include_str!("channel.toml"), &[])
 }
 
 /// Water runs against a block that slides along the floor of a tank.
 fn block(treatment: &str) -> Flowing<3> {
-    flowing(&format!(
-        r#"
-title = "block"
-dimension = 3
-run.end = 1.0
-[numerics]
-spacing = 0.05
-gravity = [0.5, 0.0, -9.81]
-[walls.{treatment}]
-[wall.tank]
-box = [[0.0, 0.0, 0.0], [0.8, 0.4, 0.8]]
-[wall.block]
-box = [[0.3, 0.1, 0.0], [0.5, 0.3, 0.2]]
-fluid = "outside"
-motion.velocity = [0.5, 0.0, 0.0]
-[body.water]
-phase = "water"
-box = [[0.0, 0.0, 0.0], [0.8, 0.4, 0.4]]
-clip = true
-pressure = "hydrostatic"
-{FLUID}"#
-    ))
+    let walls = format!("walls={{{treatment}={{}}}}");
+    flowing(include_str!("block.toml"), &[&walls])
 }
 
 /// Largest |Σ m a − weight + Σ F| over Σ m |a|, and the largest |Σ F| over the weight.

@@ -13,7 +13,7 @@ fn channel(treatment: &str, rows: u32, driving: f64, bottom: &str, lid: &str) ->
         "usaw" => "vertices = true",
         _ => "",
     };
-    flowing(&format!(
+    let text = format!(
         r#"
 title = "channel"
 dimension = 2
@@ -41,7 +41,8 @@ viscosity = {NU}
 phase = "fluid"
 box = [[0.0, 0.0], [{length}, 1.0]]
 "#
-    ))
+    );
+    flowing(&text, &[])
 }
 
 fn slip(length: f64) -> String {

@@ -12,7 +12,7 @@ fn tank(spacing: f64, more: &str) -> Flowing<2> {
     let (numerics, more) = more
         .split_once("\n\n")
         .unwrap_or(("relax = { steps = 0 }", more));
-    flowing(&format!(
+    let text = format!(
         r#"
 title = "tank"
 dimension = 2
@@ -39,7 +39,8 @@ clip = true
 pressure = "hydrostatic"
 {more}
 "#
-    ))
+    );
+    flowing(&text, &[])
 }
 
 /// Kinetic energy, height and compression, J.

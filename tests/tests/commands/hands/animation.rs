@@ -1,12 +1,10 @@
 //! Animations of the pictures of a run.
 
-use sph_tests::{DAM_BREAK, Says};
-
-use crate::hands::with;
+use sph_tests::{DAM_BREAK, Says, bench};
 
 #[test]
 fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set = "--set output.picture=pressure --set output.animation=5 --set run.end=0.1 --set output.every=0.025";
     bench.done(&format!("run scene.toml -q --threads 1 {set} --out whole"));
     let whole = std::fs::read(bench.path("whole/animations/pressure.gif")).expect("an animation");
@@ -35,7 +33,7 @@ fn an_animation_has_a_frame_for_every_picture_and_is_there_after_a_resume() {
 
 #[test]
 fn pictures_are_joined_to_a_film_unless_the_scene_wants_none() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set = "--set output.picture=pressure --set run.end=0.02";
     bench.done(&format!("run scene.toml -q {set} --out a"));
     assert!(bench.path("a/animations/pressure.gif").is_file());

@@ -1,15 +1,13 @@
 //! Values at the ends of the colours of pictures.
 
-use sph_tests::DAM_BREAK;
-
-use crate::hands::with;
+use sph_tests::{DAM_BREAK, Says, bench};
 
 const SHORT: &str =
     "--set run.end=0.02 --set output.every=0.02 --set output.picture=[\"pressure\",\"velocity\"]";
 
 #[test]
 fn a_range_by_field_colours_its_field_and_leaves_the_others() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     for (set, out) in [
         ("", "free"),
         ("--set output.picture_range=[0,9000]", "all"),
@@ -32,7 +30,7 @@ fn a_range_by_field_colours_its_field_and_leaves_the_others() {
 #[test]
 fn a_range_of_no_field_is_told_with_the_nearest_name_and_one_of_a_field_that_is_not_drawn_is_kept()
 {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let checked = |set: &str| {
         bench.call(&format!(
             "check scene.toml --set output.picture_range.{set}"
@@ -48,16 +46,12 @@ fn a_range_of_no_field_is_told_with_the_nearest_name_and_one_of_a_field_that_is_
 
 #[test]
 fn colours_are_those_of_the_whole_run_also_after_a_resume() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let set =
         "--set run.end=0.1 --set output.every=0.02 --set output.picture=[\"pressure\",\"speed\"]";
     let whole = bench.call(&format!("run scene.toml --threads 1 {set} --out whole"));
     whole.says("colours of `speed` go from 0 to");
-    assert!(
-        !whole.err.contains("colours of `pressure`"),
-        "{}",
-        whole.err
-    );
+    whole.err.lacks("colours of `pressure`");
     bench.call(&format!(
         "run scene.toml -q --threads 1 {set} --set run.max_steps=60 --out parts"
     ));

@@ -1,18 +1,13 @@
 //! Completions and manual pages.
 
-use sph_tests::Says;
-
-use crate::hands::bench;
+use sph_tests::{Says, bench};
 
 #[test]
 fn every_shell_completes_the_commands() {
-    let bench = bench();
+    let bench = bench!();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = bench.done(&format!("completions {shell}")).out;
-        assert!(
-            script.contains("explain") && script.contains("compare"),
-            "{shell}"
-        );
+        script.says("explain | compare");
     }
     let bash = bench.done("completions bash").out;
     bench.write("sph.bash", &bash);
@@ -41,7 +36,7 @@ fn the_reference_and_the_gallery_are_what_the_program_prints() {
             include_str!("../../../../docs/gallery.md"),
         ),
     ] {
-        let printed = bench().done(command).out;
+        let printed = bench!().done(command).out;
         assert!(
             printed == page,
             "docs/{file} is another: cargo run -p sph-cli -- {command} > docs/{file}"
@@ -70,32 +65,25 @@ fn every_page_of_docs_is_in_the_table_of_contents_once() {
             }
         }
     }
-    assert_eq!(
-        summary.matches("](").count(),
-        pages,
-        "links that are no page of docs"
-    );
+    assert_eq!(summary.matches("](").count(), pages, "links");
 }
 
 #[test]
 fn manual_pages_are_printed_and_written() {
-    let bench = bench();
+    let bench = bench!();
     let page = bench.done("man run").out;
     page.says(".TH sph-run 1 | checkpoint");
     assert!(bench.done("man").out.contains(".TH sph 1"));
     bench.refused("man rn").says("did you mean `run`?");
     bench.done("man --out pages");
     for name in ["sph.1", "sph-run.1", "sph-compare.1"] {
-        assert!(
-            bench.read(&format!("pages/{name}")).contains(".SH NAME"),
-            "{name}"
-        );
+        bench.read(&format!("pages/{name}")).says(".SH NAME");
     }
 }
 
 #[test]
 fn the_values_of_every_choice_are_listed() {
-    let listed = bench().done("plugins --json").out;
+    let listed = bench!().done("plugins --json").out;
     let kinds: serde_json::Value = serde_json::from_str(&listed).expect("JSON");
     let plugins = kinds.as_array().into_iter().flatten();
     let plugins = plugins.flat_map(|kind| kind["plugins"].as_array().into_iter().flatten());
@@ -118,7 +106,7 @@ fn the_values_of_every_choice_are_listed() {
         ("mover rigid-body", "or \"rz\": About z"),
         ("damping rayleigh", "zones (array; optional)"),
     ] {
-        let told = bench().done(&format!("plugins {plugin}")).out;
+        let told = bench!().done(&format!("plugins {plugin}")).out;
         assert!(told.contains(value), "{value}: {told}");
     }
 }

@@ -1,15 +1,13 @@
 //! `sph compare`.
 
 use serde_json::Value as Json;
-use sph_tests::{DAM_BREAK, Says};
-
-use crate::hands::with;
+use sph_tests::{DAM_BREAK, Says, bench};
 
 const RUN: &str = "run scene.toml -q --threads 1 --set run.end=0.05 --set output.every=0.025";
 
 #[test]
 fn runs_on_one_and_two_threads_have_the_same_bits() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done(&format!("{RUN} --out a"));
     bench.done(&RUN.replace("--threads 1", "--threads 2 --out b"));
     let told = bench.done("compare a b").out;
@@ -22,7 +20,7 @@ fn runs_on_one_and_two_threads_have_the_same_bits() {
 
 #[test]
 fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done(&format!("{RUN} --out a"));
     bench.done(&format!("{RUN} --out b"));
     let path = bench.path("b/checkpoint.sph");
@@ -49,14 +47,10 @@ fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
     let [only] = differ.as_slice() else {
         panic!("{differ:#?}");
     };
-    assert_eq!(
-        (&only["column"], &only["file"]),
-        (&Json::from("velocity"), &Json::from("checkpoint.sph"))
-    );
-    assert_eq!(
-        (&only["particle"], &only["component"]),
-        (&Json::from(number), &Json::from(1))
-    );
+    assert_eq!(only["column"], "velocity");
+    assert_eq!(only["file"], "checkpoint.sph");
+    assert_eq!(only["particle"], number);
+    assert_eq!(only["component"], 1);
     assert!((only["largest"].as_f64().expect("a number") - 0.25).abs() < 1e-12);
     let text = bench.call("compare a b").out;
     text.says(&format!("particle {number}, y, at ("));
@@ -64,15 +58,11 @@ fn a_number_that_was_changed_is_found_with_its_particle_and_place() {
 
 #[test]
 fn runs_of_other_steps_differ_in_their_fields_and_nothing_is_nothing() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done(&format!("{RUN} --out a"));
     bench.done(&format!("{RUN} --out b --set run.safety=0.5"));
     let outcome = bench.failed("compare a b");
-    assert!(
-        outcome.out.contains("fields of fluid") && outcome.out.contains("t = 0.05 s"),
-        "{}",
-        outcome.out
-    );
+    outcome.out.says("fields of fluid | t = 0.05 s");
     assert_eq!(bench.call("compare a gone").code, Some(2));
     std::fs::create_dir(bench.path("empty")).expect("a folder");
     assert_eq!(bench.call("compare a empty").code, Some(2));

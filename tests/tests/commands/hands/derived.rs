@@ -1,8 +1,8 @@
 //! Fields that outputs ask for by name, against exact flows.
 
-use sph_tests::{DAM_BREAK, Says};
+use sph_tests::{DAM_BREAK, Says, bench, close};
 
-use crate::hands::with;
+use crate::hands::reals;
 
 /// A function of the plane.
 type Plane = fn(f64, f64) -> f64;
@@ -18,21 +18,9 @@ fn vortices(fields: &str) -> String {
     )
 }
 
-fn column(piece: &sph_io::Piece<'_>, name: &str) -> Vec<f64> {
-    let field = piece
-        .fields
-        .iter()
-        .find(|f| f.name == name)
-        .expect("the field");
-    let sph_io::FieldValues::F64(values) = &field.data else {
-        panic!("{name} is not real");
-    };
-    values.to_vec()
-}
-
 /// Largest difference to an exact field over its largest value, at the start.
 fn error(piece: &sph_io::Piece<'_>, name: &str, exact: impl Fn([f64; 2]) -> f64) -> f64 {
-    let values = column(piece, name);
+    let values = reals(piece, name);
     let exact: Vec<f64> = piece.points.iter().map(|x| exact([x[0], x[1]])).collect();
     let scale = exact.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     let apart = values.iter().zip(&exact).map(|(v, e)| (v - e).abs());
@@ -44,13 +32,13 @@ fn error(piece: &sph_io::Piece<'_>, name: &str, exact: impl Fn([f64; 2]) -> f64)
 /// which is quadratic, 3.5 %. The next term of the series is a hundredth of that.
 #[test]
 fn vorticity_and_shear_stress_of_vortices_are_1_75_percent_small_and_q_3_5_as_the_kernel_says() {
-    let bench = with(&vortices(
+    let bench = bench!(&vortices(
         "[\"velocity\", \"velocity_gradient\", \"vorticity\", \"q_criterion\", \"speed\", \"shear_stress\", \"strain_rate\"]",
     ));
     bench.done("run scene.toml -q --threads 1 --out a");
     let (piece, _) = sph_io::read_vtu(bench.path("a/fields/fluid_000000.vtu")).expect("a frame");
-    let velocity = column(&piece, "velocity");
-    let speed = column(&piece, "speed");
+    let velocity = reals(&piece, "velocity");
+    let speed = reals(&piece, "speed");
     for (u, speed) in velocity.chunks(3).zip(&speed) {
         assert!((u[0].hypot(u[1]) - speed).abs() <= 1e-15);
     }
@@ -93,23 +81,14 @@ fn vorticity_and_shear_stress_of_vortices_are_1_75_percent_small_and_q_3_5_as_th
     println!("vorticity {of_vorticity:.4}, Q {of_q:.4}, shear stress {of_stress:.4}");
     let (kh, ratio) = (k * 0.04, 5.0 / 9.0);
     let small = 2.0 * kh * kh * ratio / 4.0;
-    assert!(
-        (of_vorticity - small).abs() < 0.02 * small,
-        "{of_vorticity:.5} {small:.5}"
-    );
-    assert!(
-        (of_stress - small).abs() < 0.02 * small,
-        "{of_stress:.5} {small:.5}"
-    );
-    assert!(
-        (of_q - small * (2.0 - small)).abs() < 0.04 * small,
-        "{of_q:.5} {small:.5}"
-    );
+    close(of_vorticity, small, 0.02 * small, "vorticity");
+    close(of_stress, small, 0.02 * small, "shear stress");
+    close(of_q, small * (2.0 - small), 0.04 * small, "Q");
 }
 
 #[test]
 fn a_scene_without_the_column_has_the_same_bits() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let plain = bench.done("explain scene.toml").out;
     for name in [
         "vorticity",

@@ -1,35 +1,25 @@
 //! Pictures that are made of a run afterwards, and the distance to the surface.
 
-use sph_tests::{DAM_BREAK, Says};
+use sph_tests::{DAM_BREAK, Says, bench};
 
-use crate::hands::with;
+use crate::hands::reals;
 
-const TANK: &str = "title = \"Water at rest\"\ndimension = 2\n[run]\nend = 1e-4\n[numerics]\nspacing = 0.05\n\
-    gravity = [0.0, -9.81]\nrelax = { steps = 0 }\n[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n\
-    [phase.water]\n\
-    density = 1000.0\nvelocity_scale = 4.5\n[phase.water.rheology.newtonian]\nviscosity = 1e-3\n[body.water]\n\
-    phase = \"water\"\nbox = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"\n[output]\ntimes = [1e-4]\n\
-    fields = [\"velocity\", \"surface_distance\"]\npicture = \"surface_distance\"\n";
+/// Water at rest in a tank, whose distance to the surface is drawn.
+const TANK: &str = include_str!("tank.toml");
+/// The walls of the tank.
+const WALLS: &str = "[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n";
 
 /// Place and distance of every particle of the last frame.
 fn distances(bench: &sph_tests::Bench, frame: &str) -> Vec<([f64; 3], f64)> {
     let (piece, _) = sph_io::read_vtu(bench.path(frame)).expect("a frame");
-    let field = piece.fields.iter().find(|f| f.name == "surface_distance");
-    let sph_io::FieldValues::F64(values) = &field.expect("the field").data else {
-        panic!("distances are real");
-    };
-    piece
-        .points
-        .iter()
-        .copied()
-        .zip(values.iter().copied())
-        .collect()
+    let values = reals(&piece, "surface_distance");
+    piece.points.iter().copied().zip(values).collect()
 }
 
 /// On a lattice the nearest surface particle stands straight above: H − y, up to what the water falls in 0.1 ms, 5·10⁻⁸ m.
 #[test]
 fn in_a_tank_it_is_the_depth_beside_walls_too() {
-    let bench = with(TANK);
+    let bench = bench!(TANK);
     bench.done("run scene.toml -q --threads 1 --out a");
     let all = distances(&bench, "a/fields/fluid_000000.vtu");
     assert_eq!(all.len(), 20 * 12);
@@ -45,10 +35,16 @@ fn in_a_tank_it_is_the_depth_beside_walls_too() {
 #[test]
 fn in_a_drop_it_is_the_radius_less_the_place_within_a_spacing() {
     let scene = TANK
-        .replace("[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n", "")
-        .replace("gravity = [0.0, -9.81]\n", "domain = [[-1.0, -1.0], [1.0, 1.0]]\n")
-        .replace("box = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"", "disc = { centre = [0.0, 0.0], radius = 0.6 }");
-    let bench = with(&scene);
+        .replace(WALLS, "")
+        .replace(
+            "gravity = [0.0, -9.81]\n",
+            "domain = [[-1.0, -1.0], [1.0, 1.0]]\n",
+        )
+        .replace(
+            "box = [[0.0, 0.0], [1.0, 0.6]]\npressure = \"hydrostatic\"",
+            "disc = { centre = [0.0, 0.0], radius = 0.6 }",
+        );
+    let bench = bench!(&scene);
     bench.done("run scene.toml -q --threads 1 --out a");
     let all = distances(&bench, "a/fields/fluid_000000.vtu");
     let off = |(x, d): &([f64; 3], f64)| d - (0.6 - x[0].hypot(x[1]));
@@ -60,16 +56,16 @@ fn in_a_drop_it_is_the_radius_less_the_place_within_a_spacing() {
 #[test]
 fn without_a_surface_it_is_no_number_and_who_does_not_ask_has_no_column() {
     let scene = TANK
-        .replace("[walls.usaw]\nvertices = false\n[wall.tank]\nbox = [[0.0, 0.0], [1.0, 1.0]]\nopen = [\"y+\"]\n", "")
-        .replace("gravity = [0.0, -9.81]", "periodic = { x = [0, 1], y = [0, 0.6] }")
+        .replace(WALLS, "")
+        .replace(
+            "gravity = [0.0, -9.81]",
+            "periodic = { x = [0, 1], y = [0, 0.6] }",
+        )
         .replace("\npressure = \"hydrostatic\"", "");
-    let bench = with(&scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml -q --threads 1 --out a");
-    assert!(
-        distances(&bench, "a/fields/fluid_000000.vtu")
-            .iter()
-            .all(|(_, d)| d.is_nan())
-    );
+    let all = distances(&bench, "a/fields/fluid_000000.vtu");
+    assert!(all.iter().all(|(_, d)| d.is_nan()));
     let told = bench.done("explain scene.toml").out;
     assert!(!told.contains("surface distance"), "{told}");
     let near = bench.call("check scene.toml --set output.fields=['surface_distanc']");
@@ -78,7 +74,7 @@ fn without_a_surface_it_is_no_number_and_who_does_not_ask_has_no_column() {
 
 #[test]
 fn streamlines_profiles_and_tracks_of_a_dam_break_are_drawn() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml -q --threads 1 --set run.end=0.2 --set output.every=0.05 --out a");
     let told = bench
         .done("draw streamlines a --out lines.png --time 0.2")

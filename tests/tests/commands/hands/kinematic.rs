@@ -1,8 +1,6 @@
 //! A viscosity that is given as a kinematic one.
 
-use sph_tests::{DAM_BREAK, Says};
-
-use crate::hands::with;
+use sph_tests::{DAM_BREAK, Says, bench};
 
 #[test]
 fn a_kinematic_viscosity_is_that_of_the_phase_with_its_density() {
@@ -11,7 +9,7 @@ fn a_kinematic_viscosity_is_that_of_the_phase_with_its_density() {
         .replace("1 mPa s", "1.134 Pa s");
     let kinematic = dynamic.replace("1.134 Pa s", "9 cm^2/s");
     assert_ne!(dynamic, kinematic);
-    let bench = with(&dynamic);
+    let bench = bench!(&dynamic);
     bench.write("kinematic.toml", &kinematic);
     let explained = bench.done("explain kinematic.toml --json").out;
     let json: serde_json::Value = serde_json::from_str(&explained).expect("JSON");
@@ -28,7 +26,7 @@ fn a_kinematic_viscosity_is_that_of_the_phase_with_its_density() {
 
 #[test]
 fn a_unit_that_is_no_viscosity_is_still_refused_at_its_line() {
-    let bench = with(&DAM_BREAK.replace("1 mPa s", "1 m/s"));
+    let bench = bench!(&DAM_BREAK.replace("1 mPa s", "1 m/s"));
     let refused = bench.refused("check scene.toml");
     refused.says(
         "`m/s` does not measure what is asked for | phase.water.rheology.newtonian.viscosity",

@@ -1,20 +1,14 @@
 //! Numbers that are made of a run afterwards.
 
-use crate::hands::with;
+use sph_tests::{below, bench};
 
 /// Two fluids without gravity, 220 and 80 particles of 0.0025 m² (the row on the border is of the lower one), of which the
 /// lower one moves along x.
-const LAYERS: &str = "title = \"Layers\"\ndimension = 2\n[run]\nend = 1e-6\n[numerics]\nspacing = 0.05\n\
-    periodic = { x = [0, 1], y = [0, 0.75] }\n\
-    [phase.heavy]\ndensity = 1000.0\nvelocity_scale = 1.0\n[phase.heavy.rheology.newtonian]\nviscosity = 0.0\n\
-    [phase.light]\ndensity = 500.0\nvelocity_scale = 1.0\n[phase.light.rheology.newtonian]\nviscosity = 0.0\n\
-    [body.below]\nphase = \"heavy\"\nbox = [[0.0, 0.0], [1.0, 0.5]]\nvelocity = [0.5, 0.0]\n\
-    [body.over]\nphase = \"light\"\nbox = [[0.0, 0.5], [1.0, 0.75]]\n\
-    [output]\ntimes = [1e-6]\nfields = [\"velocity\", \"phase\", \"mass\"]\n";
+const LAYERS: &str = include_str!("layers.toml");
 
 #[test]
 fn frames_are_reduced_over_phases_and_bounds() {
-    let bench = with(LAYERS);
+    let bench = bench!(LAYERS);
     bench.done("run scene.toml -q --threads 1 --out a");
     let rows = |keys: &str| -> Vec<f64> {
         let table = bench.done(&format!("measure a {keys}")).out;
@@ -25,10 +19,8 @@ fn frames_are_reduced_over_phases_and_bounds() {
     // Within 1 µs the lower fluid moves by 5·10⁻⁷ m.
     let near = |found: Vec<f64>, expected: &[f64]| {
         let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
-        assert!(
-            found.len() == expected.len() && off.fold(0.0, f64::max) < 1e-5,
-            "{found:?}"
-        );
+        assert_eq!(found.len(), expected.len());
+        below(off.fold(0.0, f64::max), 1e-5, "largest difference");
     };
     near(rows("y --reduce min,max"), &[0.0, 0.7]);
     near(rows("velocity.x --reduce mean"), &[0.5 * 220.0 / 300.0]);
@@ -56,7 +48,7 @@ fn frames_are_reduced_over_phases_and_bounds() {
 
 #[test]
 fn mistakes_are_named() {
-    let bench = with(LAYERS);
+    let bench = bench!(LAYERS);
     bench.done("run scene.toml -q --threads 1 --out a");
     for (keys, said) in [
         ("a presure", "no field `presure` was written"),
@@ -67,11 +59,6 @@ fn mistakes_are_named() {
         ("a y --quantile 2", "a share from 0 to 1"),
         ("b y", "there is no fields.pvd in b"),
     ] {
-        let refused = bench.call(&format!("measure {keys}"));
-        let told = &refused.err;
-        assert!(
-            refused.code == Some(2) && told.contains(said),
-            "{keys}: {told}"
-        );
+        bench.refused(&format!("measure {keys}")).says(said);
     }
 }

@@ -14,14 +14,13 @@ mod ranks;
 mod stepper;
 mod view;
 
-use sph_tests::Bench;
+use sph_io::{FieldValues, Piece};
 
-/// An empty folder for the program.
-fn bench() -> Bench {
-    Bench::new(env!("CARGO_BIN_EXE_sph-under-test"))
-}
-
-/// A folder with a scene for the program.
-fn with(scene: &str) -> Bench {
-    Bench::with(env!("CARGO_BIN_EXE_sph-under-test"), scene)
+/// A field of reals of a frame.
+fn reals(piece: &Piece<'_>, name: &str) -> Vec<f64> {
+    let field = piece.fields.iter().find(|f| f.name == name);
+    let FieldValues::F64(values) = &field.expect("the field").data else {
+        panic!("{name} is not real");
+    };
+    values.to_vec()
 }

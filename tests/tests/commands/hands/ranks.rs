@@ -1,12 +1,10 @@
 //! What several machines would have and send.
 
-use sph_tests::Says;
-
-use crate::hands::bench;
+use sph_tests::{Says, bench, within};
 
 #[test]
 fn every_particle_has_one_owner_and_ghosts_are_those_that_are_sent() {
-    let bench = bench();
+    let bench = bench!();
     let told = bench.done("explain hydrostatic-tank --ranks 6 --json").out;
     let json: serde_json::Value = serde_json::from_str(&told).expect("JSON");
     let split = &json["ranks"];
@@ -19,10 +17,7 @@ fn every_particle_has_one_owner_and_ghosts_are_those_that_are_sent() {
     let particles = sum("particles") as f64;
     let bound = 3.0 * 0.5 * 3.0 * 6.0 / particles;
     let off = split["imbalance"].as_f64().expect("an imbalance");
-    assert!(
-        (0.0..bound).contains(&off),
-        "imbalance {off}, bound {bound}"
-    );
+    within(off, 0.0..bound, "imbalance");
     // What the density sum and the interactions have found: no column twice.
     let columns: Vec<&str> = split["exchanges"]
         .as_array()
@@ -37,17 +32,15 @@ fn every_particle_has_one_owner_and_ghosts_are_those_that_are_sent() {
     assert_eq!(once.len(), columns.len(), "{columns:?}");
     assert_eq!(columns.first(), Some(&"density"), "{columns:?}");
     // Pressures follow from densities.
-    assert!(
-        columns.contains(&"acceleration") && !columns.contains(&"pressure"),
-        "{columns:?}"
-    );
+    let has = |name| columns.contains(&name);
+    assert!(has("acceleration") && !has("pressure"), "{columns:?}");
     let text = bench.done("explain hydrostatic-tank --ranks 6").out;
     text.says("split over 6 machines");
 }
 
 #[test]
 fn splits_that_cannot_be_are_told() {
-    let bench = bench();
+    let bench = bench!();
     for (command, told) in [
         (
             "explain hydrostatic-tank --ranks 100000",

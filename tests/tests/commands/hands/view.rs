@@ -3,13 +3,11 @@
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, Going, Says, get};
-
-use crate::hands::with;
+use sph_tests::{Bench, DAM_BREAK, Going, Says, bench, get};
 
 #[test]
 fn a_browser_gets_the_page_the_pictures_and_the_series_of_a_run() {
-    let bench = with(DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done(
         "run scene.toml -q --threads 1 --set output.picture=pressure --set run.end=0.06 --out a",
     );
@@ -75,7 +73,7 @@ fn a_real_browser_shows_pictures_curves_plots_errors_and_the_log() {
         println!("no chromium here: nothing was looked at");
         return;
     };
-    let bench = with(&format!("{DAM_BREAK}{RITTER}"));
+    let bench = bench!(&format!("{DAM_BREAK}{RITTER}"));
     let ritter = "time[s],front[m]\n0,0.2\n0.06,0.4377\n";
     bench.write("ritter.csv", ritter);
     bench.done(

@@ -1,9 +1,7 @@
 //! A run goes on with what it began with: the scene, its files, the program.
 
 use sph_io::Checkpoint;
-use sph_tests::{Bench, PADDLE};
-
-use crate::resume::PROGRAM;
+use sph_tests::{PADDLE, bench};
 
 /// The paddle moved by a table, a tank from a drawing, and a reference beside it.
 fn scene() -> String {
@@ -24,7 +22,7 @@ const FRONT: &str = "time,front\n0,0.2\n0.4,0.6\n";
 
 #[test]
 fn a_file_that_changed_after_a_kill_is_named_and_refused() {
-    let bench = Bench::with(PROGRAM, &scene());
+    let bench = bench!(&scene());
     let files = [
         ("motion.csv", MOTION),
         ("tank.csv", TANK),
@@ -78,7 +76,7 @@ fn a_file_that_changed_after_a_kill_is_named_and_refused() {
 
 #[test]
 fn a_file_that_did_not_change_is_no_reason() {
-    let bench = Bench::with(PROGRAM, &scene());
+    let bench = bench!(&scene());
     for (name, text) in [
         ("motion.csv", MOTION),
         ("tank.csv", TANK),
@@ -95,7 +93,7 @@ fn a_file_that_did_not_change_is_no_reason() {
 
 #[test]
 fn another_version_of_the_program_is_named_and_refused() {
-    let bench = Bench::with(PROGRAM, PADDLE);
+    let bench = bench!(PADDLE);
     let run = "run scene.toml --quiet --out r --set run.end=0.02";
     bench.done(run);
     let path = bench.path("r/checkpoint.sph");

@@ -1,8 +1,8 @@
 //! A run has its folder for itself.
 
-use sph_tests::{Bench, DAM_BREAK, Results, wait_until};
+use sph_tests::{DAM_BREAK, Results, bench, wait_until};
 
-use crate::resume::{PROGRAM, uninterrupted};
+use crate::resume::uninterrupted;
 
 /// A scene that runs until it is stopped.
 fn endless() -> String {
@@ -11,7 +11,7 @@ fn endless() -> String {
 
 #[test]
 fn a_second_run_is_refused_while_the_first_goes_on_and_not_after() {
-    let bench = Bench::with(PROGRAM, &endless());
+    let bench = bench!(&endless());
     let run = "run scene.toml --quiet --out r";
     let mut first = bench.start_until(run, "r", 0.05);
     for more in ["", " --resume", " --resume --changed --set run.safety=0.5"] {
@@ -31,7 +31,7 @@ fn a_second_run_is_refused_while_the_first_goes_on_and_not_after() {
 
 #[test]
 fn the_lock_of_a_killed_run_is_taken_over_with_a_word() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     let mut run = bench.start_until("run scene.toml --quiet --out r", "r", 0.1);
     run.kill();
@@ -45,7 +45,7 @@ fn the_lock_of_a_killed_run_is_taken_over_with_a_word() {
 
 #[test]
 fn a_run_that_fails_gives_its_folder_back() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let bounds = "--set numerics.density_bounds=[0.9999,1.0001] --set run.retries=0";
     bench.failed(&format!("run scene.toml --out r {bounds}"));
     assert!(!bench.path("r/.lock").exists());
@@ -55,7 +55,7 @@ fn a_run_that_fails_gives_its_folder_back() {
 #[test]
 fn variants_side_by_side_have_their_folders_and_a_second_study_is_refused() {
     let reference = "[reference.front]\nprobe = \"front\"\nfile = \"front.csv\"\n";
-    let bench = Bench::with(PROGRAM, &(endless() + reference));
+    let bench = bench!(&(endless() + reference));
     bench.write("front.csv", "time,front\n0,0.2\n400,0.6\n");
     let study = |end: &str| {
         format!(

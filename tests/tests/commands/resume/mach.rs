@@ -1,12 +1,10 @@
 //! Flow that is faster than its sound ends a run, unless the scene allows it.
 
-use sph_tests::{Bench, PERIODIC};
-
-use crate::resume::PROGRAM;
+use sph_tests::{PERIODIC, bench};
 
 #[test]
 fn above_a_mach_number_of_0p3_it_is_said_once_and_above_1_the_run_ends() {
-    let bench = Bench::with(PROGRAM, PERIODIC);
+    let bench = bench!(PERIODIC);
     // The whole fluid flies at 20 m/s.
     let run = |sound: f64, more: &str| {
         let set = format!(

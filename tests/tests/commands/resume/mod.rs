@@ -1,15 +1,15 @@
 //! A run that is killed or interrupted and resumed ends like the one that was not.
 #![cfg(unix)]
 
-use sph_tests::{Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, soil_with};
+use sph_tests::{
+    Bench, DAM_BREAK, END_OF_THE_STEP, PADDLE, Results, SOIL, SUB_STEPS, bench, soil_with,
+};
 
 mod failing;
 mod identity;
 mod lock;
 mod mach;
 mod soak;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 fn uninterrupted(bench: &Bench) -> Results {
     bench.done("run scene.toml --quiet --out whole --threads 2");
@@ -27,101 +27,53 @@ fn killed_and_resumed(bench: &Bench, time: f64, threads: u32) -> Results {
     Results::read(&bench.path(&out))
 }
 
-#[test]
-fn a_killed_run_resumes_bit_for_bit_from_several_moments() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+/// A scene, with a `column` of its checkpoint or series, is killed at simulated times and resumed with numbers of threads.
+fn resumes(scene: &str, column: &str, kills: &[(f64, u32)]) {
+    let bench = bench!(scene);
     let whole = uninterrupted(&bench);
-    for time in [0.03, 0.11, 0.29] {
-        let resumed = killed_and_resumed(&bench, time, 2);
-        whole.assert_same(&resumed, &format!("killed at t = {time} s"));
+    let state = &whole.state;
+    assert!(state.columns.contains_key(column) || state.series.contains(column));
+    for (time, threads) in kills {
+        let resumed = killed_and_resumed(&bench, *time, *threads);
+        let told = format!("{column}: killed at t = {time} s, {threads} threads");
+        whole.assert_same(&resumed, &told);
     }
 }
 
 #[test]
-fn a_pressure_that_is_solved_for_goes_on_where_it_was() {
-    let tables = "[pressure.implicit]\n[surface.cone-test]";
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("pressure"));
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with a pressure of the end of the step");
+fn a_killed_run_resumes_bit_for_bit_from_several_moments_with_any_number_of_threads() {
+    let kills = [(0.03, 2), (0.11, 2), (0.15, 1), (0.15, 3), (0.29, 2)];
+    resumes(DAM_BREAK, "position", &kills);
 }
 
 #[test]
-fn a_renormalised_surface_goes_on_where_it_was() {
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n[surface.renormalised]\n"));
-    let whole = uninterrupted(&bench);
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with a renormalised surface");
-}
-
-#[test]
-fn another_number_of_threads_resumes_it_too() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let whole = uninterrupted(&bench);
-    for threads in [1, 3] {
-        let resumed = killed_and_resumed(&bench, 0.15, threads);
-        whole.assert_same(&resumed, &format!("resumed with {threads} threads"));
-    }
+fn pressures_that_are_solved_for_surfaces_outlets_and_displacements_go_on_where_they_were() {
+    let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
+    resumes(&asked, "displacement", &[(0.11, 1)]);
+    let with = |tables: &str| format!("{DAM_BREAK}\n{tables}\n");
+    let solved = with("[pressure.implicit]\n[surface.cone-test]");
+    resumes(&solved, "pressure", &[(0.11, 1)]);
+    resumes(&with("[surface.renormalised]"), "position", &[(0.11, 1)]);
+    let outlet = with("[outlet.end]\nbeyond = 0.45");
+    resumes(&outlet, "outlet.end.water[kg]", &[(0.11, 1), (0.29, 1)]);
 }
 
 #[test]
 fn a_run_with_a_moving_wall_resumes_while_it_moves_and_after() {
-    let bench = Bench::with(PROGRAM, PADDLE);
-    let whole = uninterrupted(&bench);
-    for time in [0.15, 0.32] {
-        let resumed = killed_and_resumed(&bench, time, 2);
-        whole.assert_same(&resumed, &format!("moving wall, killed at t = {time} s"));
-    }
+    resumes(PADDLE, "position", &[(0.15, 2), (0.32, 2)]);
 }
 
 #[test]
-fn particles_that_left_by_an_outlet_stay_away_and_counted() {
-    let bench = Bench::with(
-        PROGRAM,
-        &format!("{DAM_BREAK}\n[outlet.end]\nbeyond = 0.45\n"),
-    );
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.series.contains("outlet.end.water[kg]"));
-    for time in [0.11, 0.29] {
-        let resumed = killed_and_resumed(&bench, time, 1);
-        whole.assert_same(&resumed, &format!("an outlet, killed at t = {time} s"));
-    }
-}
-
-#[test]
-fn displacements_go_on_where_they_were() {
-    let asked = DAM_BREAK.replace("fields = [", "fields = [\"displacement\", ");
-    let bench = Bench::with(PROGRAM, &asked);
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("displacement"));
-    let resumed = killed_and_resumed(&bench, 0.11, 1);
-    whole.assert_same(&resumed, "with displacements");
-}
-
-#[test]
-fn the_remembered_displacement_of_a_soil_is_resumed() {
-    let bench = Bench::with(PROGRAM, SOIL);
-    let whole = uninterrupted(&bench);
-    assert!(whole.state.columns.contains_key("stress_rotation"));
-    let resumed = killed_and_resumed(&bench, 0.04, 1);
-    whole.assert_same(&resumed, "with elastic displacements");
-}
-
-#[test]
-fn stresses_of_the_end_of_the_step_and_of_sub_steps_go_on_as_well() {
+fn displacements_and_stresses_of_a_soil_go_on_where_they_were() {
+    resumes(SOIL, "stress_rotation", &[(0.04, 1)]);
     for force in [END_OF_THE_STEP, SUB_STEPS] {
-        let bench = Bench::with(PROGRAM, &soil_with(force));
-        let whole = uninterrupted(&bench);
-        assert!(whole.state.columns.contains_key("elastic_stress"));
-        let resumed = killed_and_resumed(&bench, 0.04, 1);
-        whole.assert_same(&resumed, force);
+        resumes(&soil_with(force), "elastic_stress", &[(0.04, 1)]);
     }
 }
 
 #[test]
 fn a_run_that_is_over_stays_as_it_is() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     bench.done("run scene.toml --quiet --out whole --threads 1 --resume");
     let again = Results::read(&bench.path("whole"));
@@ -141,7 +93,7 @@ fn sigterm_does_the_same() {
 }
 
 fn stopped_by(signal: &str) {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let whole = uninterrupted(&bench);
     let mut run = bench.start_until("run scene.toml --out stopped", "stopped", 0.1);
     run.signal(signal);
@@ -162,7 +114,7 @@ fn summary_number(bench: &Bench, out: &str, key: &str) -> f64 {
 
 #[test]
 fn a_run_starts_from_the_state_of_another() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.2");
     bench.done("run scene.toml --quiet --out whole");
     bench.done("run scene.toml --quiet --out rest --from half");
@@ -182,7 +134,7 @@ fn a_run_starts_from_the_state_of_another() {
 
 #[test]
 fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let run = "run scene.toml --quiet --out out";
     bench.done(&format!("{run} --set run.end=0.1 --set output.vtk=false"));
     assert!(!bench.path("out/fields.pvd").exists());
@@ -201,7 +153,7 @@ fn a_changed_run_may_begin_to_write_fields_but_not_measure_anew() {
 
 #[test]
 fn a_state_that_does_not_fit_is_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out half --set run.end=0.02");
     let refused = |words: &str, code: i32, why: &str| {
         let outcome = bench.call(&format!("run scene.toml {words}")).ended(code);

@@ -3,33 +3,7 @@
 use crate::study::bench;
 
 /// A few grains that fall into a box.
-const SCENE: &str = r#"title = "Grains fall"
-[run]
-end = "0.02 s"
-[grains]
-count = 20
-radius = ["9 mm", "11 mm"]
-density = "2500 kg/m³"
-gravity = [0, 0, -9.81]
-[grains.contact.linear-elastic]
-modulus = "1 MPa"
-stiffness_ratio = 0.5
-friction = 0.5
-[start.cloud]
-low = [0, 0, 0.005]
-high = [0.1, 0.1, 0.15]
-[box]
-low = [0, 0, 0]
-high = [0.1, 0.1, 0.15]
-[probe.fall]
-kind = "settlement"
-# g t²/2: nothing is touched yet.
-[reference.fall]
-kind = "value"
-probe = "fall"
-value = 0.001962
-of = "last"
-"#;
+const SCENE: &str = include_str!("grains.toml");
 
 const STUDY: &str = r#"title = "How many fall"
 scene = "grains.toml"
@@ -56,10 +30,7 @@ fn grains_are_studied_as_particles_are_and_settled_once() {
         let error = error.unwrap_or_else(|| panic!("no error: {variant}"));
         // A kick, then a drift: n − 1 steps Δt and one δ that is shorter fall by g [t² + (n − 1) Δt² + δ²]/2.
         let steps = variant["steps"].as_f64().expect("steps");
-        assert!(
-            error <= 1.0 / (steps - 1.0),
-            "{error} after {steps} steps: {variant}"
-        );
+        assert!(error <= 1.0 / (steps - 1.0), "{error} after {steps}");
         assert!(steps > 10.0, "{variant}");
     }
     // Nothing is run again, so that not even the times change.

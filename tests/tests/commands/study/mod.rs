@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sph_study::{SceneText, Study};
-use sph_tests::{Bench, Says, line_of};
+use sph_tests::{Bench, Says, bench};
 
 mod along;
 mod failures;
@@ -13,28 +13,11 @@ mod refusals;
 mod results;
 mod scaling;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
-
 /// Vortices in a small box, some ten steps long.
-const STUDY: &str = r#"title = "Vortices"
-scene = "taylor-green-2d"
-error = "velocity-l1"
-set.run.end = 0.02
-
-[[vary]]
-name = "viscosity"
-entries = [
-    { name = "morris", set = { viscous-operator.morris = {} } },
-    { name = "krimi", set = { viscous-operator.krimi = {} } },
-]
-
-[[vary]]
-key = "numerics.spacing"
-values = [0.0625, 0.05, 0.04]
-"#;
+const STUDY: &str = include_str!("vortices.toml");
 
 fn bench(study: &str) -> Bench {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     bench.write("s.toml", study);
     bench
 }
@@ -50,15 +33,8 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 /// A study is refused with the changes of a file, at the line that each names, and leaves no file.
-fn refuses(study: &str, file: &'static str) {
-    for case in sph_tests::refusals(file) {
-        let text = case.of(study);
-        let bench = bench(&text);
-        let refused = bench.refused("study s.toml");
-        let line = line_of(&text, case.at);
-        refused.says(&format!("s.toml:{line}: | {}", case.said.join(" | ")));
-        assert_eq!(bench.names(), ["s.toml"], "something was written");
-    }
+fn refuses(study: &str, changes: &'static str) {
+    bench!().refuses("s.toml", &["study s.toml"], study, changes);
 }
 
 #[test]
@@ -99,7 +75,7 @@ fn shipped_studies_are_good() {
 /// Its data are compiled in, and so are those that it names beside those of its scene.
 #[test]
 fn a_shipped_study_of_two_models_runs_in_any_folder() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let outcome = bench.done("study dilatancy-judge --only loose-roux* --set run.end=0.02");
     outcome.out.says("loose, roux-radjai");
     let run = "run undrained-shear --set run.end=0.02 --set \

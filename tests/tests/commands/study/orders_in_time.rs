@@ -1,13 +1,12 @@
 //! The limit of small steps that `taylor-green-time-order` names is that of this program.
 
-use crate::study::PROGRAM;
-use sph_tests::{Bench, close};
+use sph_tests::{bench, close};
 
 /// Two schemes of second order with steps of 0.4 h/c and half of that: within 0.15 of it, which is asked of the orders of
 /// all velocities too (docs/validation/implicit.md).
 #[test]
 fn verlet_and_leap_frog_are_of_second_order_towards_the_limit_of_the_shipped_study() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let only = "--only verlet_step-1 --only verlet_step-0.5 --only leap-frog_step-1 --only leap-frog_step-0.5";
     bench.done(&format!(
         "study taylor-green-time-order --threads 1 --out s {only}"

@@ -1,8 +1,6 @@
 //! What an implicit scene must not ask for.
 
-use sph_tests::{Bench, DAM_BREAK};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{DAM_BREAK, bench};
 
 #[test]
 fn solves_of_nothing_and_unknown_solvers_are_refused() {
@@ -20,7 +18,7 @@ fn solves_of_nothing_and_unknown_solvers_are_refused() {
         ),
         (&misspelt, "".into(), "cholesky"),
     ] {
-        let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
+        let bench = bench!(&format!("{DAM_BREAK}\n{tables}\n"));
         bench.refused(&format!("check scene.toml {set}")).says(told);
     }
 }
@@ -30,7 +28,7 @@ fn solves_of_nothing_and_unknown_solvers_are_refused() {
 fn a_solver_that_gives_up_stops_the_run_with_its_reason() {
     let tables = "[implicit-viscosity.backward-euler]\n[linear-solver.conjugate-gradient]\n\
          iterations = 1\ntolerance = 1e-14";
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}\n{tables}\n"));
+    let bench = bench!(&format!("{DAM_BREAK}\n{tables}\n"));
     for (retries, tried) in [(0, false), (2, true)] {
         let outcome = bench.failed(&format!(
             "run scene.toml --out out{retries} --set run.retries={retries} \
@@ -68,7 +66,7 @@ axis = "y"
 #[test]
 fn a_lone_particle_of_a_second_phase_falls_freely() {
     let scene = with_oil("0.1", "[[0.4, 0.4], [0.44, 0.44]]", "");
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml --out out --set run.end=0.1");
     let fallen = 0.41 - bench.series("out").last("oil.lowest");
     assert!((fallen - 0.04905).abs() < 0.0005, "fell by {fallen} m");
@@ -81,7 +79,7 @@ fn a_lone_particle_within_another_phase_is_carried() {
     let column = "pressure = \"hydrostatic\"";
     let scene = with_oil("1e3", "[[0.08, 0.2], [0.12, 0.24]]", "");
     let scene = scene.replacen(column, &format!("{column}\n{hole}"), 1);
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     bench.done("run scene.toml --out out --set run.end=0.3 --set output.every=0.3");
     let at = bench.series("out").last("oil.lowest");
     assert!((0.05..0.15).contains(&at), "it is at {at} m");
@@ -92,7 +90,7 @@ fn a_lone_particle_within_another_phase_is_carried() {
 fn one_of_two_phases_without_viscosity_runs_like_one_of_little() {
     let floor = |water: &str| {
         let scene = with_oil("1.0", "[[0.2, 0.0], [0.4, 0.2]]", "");
-        let bench = Bench::with(PROGRAM, &scene);
+        let bench = bench!(&scene);
         bench.done(&format!(
             "run scene.toml --out out --set run.end=0.1 --set phase.water.rheology.newtonian.viscosity={water}"
         ));

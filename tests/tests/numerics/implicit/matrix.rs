@@ -7,7 +7,7 @@ use sph_multiphase::viscosity::{
     MonaghanGingold, Morris, OnLattice, Viscosity, ViscousOperator, WallTerm,
 };
 use sph_neighbours::{Weak, World, interactions};
-use sph_tests::{assembled, scene};
+use sph_tests::{assembled, scene, within};
 
 const ETA: f64 = 3.0;
 /// A tank with a slanted wall, and what else stands in `[numerics]` and behind `[wall.tank]`.
@@ -50,26 +50,7 @@ fn wedge() -> World<2> {
 
 /// A box in three dimensions.
 fn cube() -> World<3> {
-    let text = r#"
-        title = "box"
-        dimension = 3
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.125
-        smoothing_ratio = 1.3
-        [walls.usaw]
-        [wall.tank]
-        box = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]
-        [phase.fluid]
-        density = 2.0
-        speed_of_sound = 10.0
-        [phase.fluid.rheology.newtonian]
-        viscosity = 1.0
-        [body.fluid]
-        phase = "fluid"
-        fill = "walls"
-    "#;
+    let text = include_str!("cube.toml");
     disturbed(text)
 }
 
@@ -207,10 +188,7 @@ fn is_the_term<const D: usize>(world: &World<D>) {
                         .map(|i| explicit[i] - (source[i] - force[i]))
                         .collect();
                     let error = largest(&apart) / largest(&explicit);
-                    assert!(
-                        error < 1e-12,
-                        "{name} in {D}D: {error:e} between {from} and term"
-                    );
+                    assert!(error < 1e-12, "{name} in {D}D: {error:e} by {from}");
                 }
                 let apart = matrix.asymmetry();
                 assert!(apart < 1e-14, "{name} in {D}D: asymmetry {apart:e}");
@@ -226,10 +204,7 @@ fn is_the_term<const D: usize>(world: &World<D>) {
         }));
         let entries = |m: &Matrix<D>| m.pattern.columns.len() as f64;
         let left = entries(&strong) / entries(&whole);
-        assert!(
-            (0.1..0.9).contains(&left),
-            "{name} in {D}D: {left} of the pairs are left"
-        );
+        within(left, 0.1..0.9, &format!("{name} in {D}D: pairs left"));
     }
 }
 

@@ -3,11 +3,9 @@
 use sph_core::{System, Vect, fields};
 use sph_multiphase as _;
 use sph_multiphase::FREE_SURFACE;
-use sph_tests::{Bench, assembled, scene};
+use sph_tests::{assembled, bench, close, scene};
 
 use crate::implicit::order::{after, vortices};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
 
 /// Root of the mean square over that of `b`.
 fn apart(a: &[Vect<2>], b: &[Vect<2>]) -> f64 {
@@ -25,10 +23,7 @@ fn with_small_steps_it_is_the_explicit_scheme_to_first_order() {
     };
     let runs = [160, 320, 640].map(difference);
     let order = (runs[1] / runs[2]).log2();
-    assert!(
-        (order - 1.0).abs() < 0.15,
-        "order {order:.3} of the difference, {runs:?}"
-    );
+    close(order, 1.0, 0.15, "order of the difference");
 }
 
 #[test]
@@ -37,7 +32,7 @@ fn a_scene_that_asks_for_no_step_or_no_solve_is_refused_with_its_line() {
         "{}\n[pressure.implicit]\ncourant = 0.0\n",
         sph_tests::DAM_BREAK
     );
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let refused = bench.refused("run scene.toml --quiet --out r");
     refused.says("courant = 0.0");
     assert!(!bench.path("r").exists());
@@ -46,7 +41,7 @@ fn a_scene_that_asks_for_no_step_or_no_solve_is_refused_with_its_line() {
 #[test]
 fn a_surface_that_the_scene_does_not_name_is_refused() {
     let scene = format!("{}\n[pressure.implicit]\n", sph_tests::DAM_BREAK);
-    let bench = Bench::with(PROGRAM, &scene);
+    let bench = bench!(&scene);
     let outcome = bench.call("run scene.toml --quiet --out r");
     assert_ne!(outcome.code, Some(0));
     outcome.says("[surface.cone-test]");
@@ -54,29 +49,7 @@ fn a_surface_that_the_scene_does_not_name_is_refused() {
 
 /// Water in a tank of 9 by 9 spacings, 14 rows deep, its particles up to 6 % of a spacing off the lattice.
 fn tank() -> Vec<(Vect<3>, f64)> {
-    let text = r#"
-        title = "a tank"
-        dimension = 3
-        [run]
-        end = 1.0
-        [numerics]
-        spacing = 0.1
-        smoothing_ratio = 2.0
-        gravity = [0.0, 0.0, -9.81]
-        [surface.cone-test]
-        [walls.usaw]
-        vertices = false
-        [wall.tank]
-        box = [[0.0, 0.0, 0.0], [0.9, 0.9, 2.5]]
-        open = ["z+"]
-        [phase.water]
-        density = 1000.0
-        speed_of_sound = 50.0
-        rheology.newtonian = { viscosity = "1e-3 Pa s" }
-        [body.water]
-        phase = "water"
-        box = [[0.0, 0.0, 0.0], [0.9, 0.9, 1.4]]
-    "#;
+    let text = include_str!("tank.toml");
     let mut parts = assembled::<3>(&scene(text, &[]));
     let free = &mut parts.flow.world.free;
     let mut position = free.take(fields::POSITION).expect("positions");

@@ -3,7 +3,7 @@
 use sph_core::System;
 use sph_open as _;
 use sph_particles::setup::Assembled;
-use sph_tests::Says;
+use sph_tests::{Says, below, near};
 
 use crate::invariants::{fly, shipped};
 
@@ -34,16 +34,8 @@ impl Budget {
     /// the `initial` energy, J, without.
     fn closes(&self, initial: f64) {
         let (unlisted, remainder) = (self.at("unlisted"), self.at("remainder"));
-        assert!(
-            unlisted.abs() < 1e-9 * initial,
-            "{unlisted} J of {initial} J: {:?}",
-            self.0
-        );
-        assert!(
-            remainder.abs() < 1e-3 * initial,
-            "{remainder} J of {initial} J: {:?}",
-            self.0
-        );
+        below(unlisted, 1e-9 * initial, "J unlisted");
+        below(remainder, 1e-3 * initial, "J that remain");
     }
 }
 
@@ -137,18 +129,9 @@ fn friction_takes_what_drives_a_channel() {
         let (now, time) = (Budget::new(&parts), parts.flow.time() - start);
         let rate = |name: &str| (now.at(name) - before.at(name)) / time;
         for (name, expected) in [("others", power), ("viscosity", -power)] {
-            let error = rate(name) / expected - 1.0;
-            assert!(
-                error.abs() < 0.01,
-                "{name}: {} W, {expected} W, {error}",
-                rate(name)
-            );
+            near(rate(name), expected, 0.01, name);
         }
-        assert!(
-            now.at("unlisted").abs() < 1e-9 * now.at("others"),
-            "{:?}",
-            now.0
-        );
+        below(now.at("unlisted"), 1e-9 * now.at("others"), "J unlisted");
     }
 }
 

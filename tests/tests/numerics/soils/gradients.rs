@@ -1,6 +1,7 @@
 //! Velocity gradients are computed where somebody reads them, and nowhere else.
 
 use sph_core::{System, Vect, fields};
+use sph_tests::move_as;
 
 use crate::soils::tried;
 
@@ -10,12 +11,7 @@ const SLIDE: u32 = 0;
 /// Largest strain rate of mud and of water that shear alike, 1/s.
 fn rates(overrides: &[&str]) -> [f64; 2] {
     let mut parts = tried("submarine-landslide", overrides).unwrap_or_else(|e| panic!("{e}"));
-    let free = &mut parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap().to_vec();
-    let velocity = free.get_mut(fields::VELOCITY).unwrap();
-    for (u, x) in velocity.iter_mut().zip(&places) {
-        *u = Vect::from([x[1], 0.0]);
-    }
+    move_as(&mut parts, |x| Vect::from([x[1], 0.0]));
     parts.flow.evaluate().unwrap();
     let free = &parts.flow.world.free;
     let phase = free.get(fields::PHASE).unwrap();

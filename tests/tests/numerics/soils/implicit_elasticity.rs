@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{Says, close};
+use sph_tests::{close, step};
 
-use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, step, top_at};
+use crate::soils::stepping::{NESTED, crest, kinetic_energy, longest, spin_kept, top_at};
 use crate::soils::tried;
 
 const IMPLICIT: [&str; 3] = [
@@ -36,10 +36,7 @@ fn a_standing_wave_is_that_of_the_scheme() {
             worst = worst.max((crest(&parts) / first - u).abs());
         }
         println!("a = {a}: off by {worst:.4} after {steps} steps, exact {u:.4}");
-        assert!(
-            worst < 0.005,
-            "off by {worst} with a = {a}, 0.0021 at most was measured"
-        );
+        assert!(worst < 0.005, "a = {a}: {worst}, measured 0.0021");
     }
 }
 
@@ -56,10 +53,7 @@ fn rings_out(integrator: &str) {
     let mut parts = with_implicit("elastic-shear-wave", &shaken);
     parts.flow.evaluate().unwrap();
     let limits = parts.flow.step_limits().unwrap();
-    assert!(
-        limits.iter().all(|l| l.name != "elastic wave"),
-        "{limits:?}"
-    );
+    assert!(limits.iter().all(|l| l.name != "elastic wave"));
     let dt = limits.iter().map(|l| l.dt).fold(f64::INFINITY, f64::min);
     let first = kinetic_energy(&parts);
     let mut most = 0.0_f64;
@@ -129,21 +123,4 @@ fn a_stiff_slope_that_is_too_steep_flows() {
     println!("{half} m/s after 0.5 s, then the top gains {gained} m/s²");
     close(gained, 0.593, 0.06, "m/s²");
     assert!(half > 0.1, "{half} m/s after 0.5 s, 0.24 with a soft soil");
-}
-
-#[test]
-fn it_is_refused_without_what_solves_for_it() {
-    let because = |overrides: &[&str]| match tried("elastic-shear-wave", overrides) {
-        Err(error) => error.to_string(),
-        Ok(_) => panic!("{overrides:?} is accepted"),
-    };
-    let alone = because(&IMPLICIT[..1]);
-    alone.says("implicit-viscosity.backward-euler");
-    let half = because(&[IMPLICIT[0], "implicit-viscosity.crank-nicolson={}"]);
-    half.says("end of the step");
-    let plain = because(&IMPLICIT[..2]);
-    plain.says("monaghan-gingold");
-    let adjoint = "velocity-gradient.renormalised.adjoint=true";
-    let both = because(&[IMPLICIT[0], IMPLICIT[1], IMPLICIT[2], adjoint]);
-    both.says("adjoint");
 }

@@ -1,66 +1,9 @@
 //! Pores of soils: the balance of grains and fluid, consolidation, undrained shear, the same bits, refusals.
 
-use sph_tests::Bench;
-
-use crate::sediment::refuses;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, assembly_refuses, bench};
 
 /// A dense bed under water that is sheared by the water's start.
-const BED: &str = r#"
-title = "Water over a dense bed"
-dimension = 2
-[run]
-end = 0.02
-[numerics]
-spacing = 0.005
-smoothing_ratio = 2.0
-gravity = [0.0, -9.81]
-driving = [3.0, 0.0]
-periodic = { x = [0.0, 0.06] }
-[viscous-operator.monaghan-gingold]
-within = "arithmetic"
-[implicit-viscosity.backward-euler]
-[effective-pressure.laplace]
-pore_density = 1000.0
-[pore-pressure.darcy]
-soil = "sand"
-water = "water"
-porosity = 0.38
-grain_diameter = "1 mm"
-[dilatancy.roux-radjai]
-critical_packing = 0.58
-slope = 4.0
-[walls.usaw]
-[wall.floor]
-polyline = [[0.0, 0.0], [0.06, 0.0]]
-condition = "no-slip"
-[phase.sand]
-density = 2000.0
-speed_of_sound = 15.0
-[phase.sand.rheology.mu-i]
-static_friction = 0.4
-limiting_friction = 0.8
-reference_inertial_number = 0.1
-grain_diameter = "1 mm"
-grain_density = 2650.0
-regularisation.chauchat-medale = { strain_rate = 0.1 }
-[phase.water]
-density = 1000.0
-speed_of_sound = 15.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.bed]
-phase = "sand"
-box = [[0.0, 0.0], [0.06, 0.05]]
-pressure = "hydrostatic"
-[body.water]
-phase = "water"
-box = [[0.0, 0.05], [0.06, 0.08]]
-pressure = "hydrostatic"
-[output]
-every = 0.02
-vtk = false
-"#;
+const BED: &str = include_str!("bed.toml");
 
 fn sum(column: &[f64]) -> f64 {
     column.iter().sum()
@@ -78,7 +21,7 @@ fn by_identity(bench: &Bench, folder: &str, name: &str) -> Vec<f64> {
 /// What the soil takes up is what the water gives, and its packing is that of its mass.
 #[test]
 fn grains_and_water_are_neither_made_nor_lost() {
-    let bench = Bench::with(PROGRAM, BED);
+    let bench = bench!(BED);
     bench.done("run scene.toml --quiet --out none --set run.end=1e-9");
     bench.done("run scene.toml --quiet --out out");
     let [m0, m1] = ["none", "out"].map(|folder| by_identity(&bench, folder, "mass"));
@@ -98,10 +41,10 @@ fn grains_and_water_are_neither_made_nor_lost() {
 
 #[test]
 fn pores_have_the_same_bits_on_threads_and_after_an_interruption() {
-    Bench::with(PROGRAM, BED).same_bits("", 7);
+    bench!(BED).same_bits("", 7);
 }
 
 #[test]
 fn pores_that_are_none_are_refused() {
-    refuses(BED, include_str!("pores.refused"));
+    assembly_refuses(BED, include_str!("pores.refused"));
 }

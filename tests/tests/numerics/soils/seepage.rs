@@ -3,9 +3,7 @@
 use sph_core::{System, Vect, fields};
 use sph_particles::setup::Assembled;
 use sph_soil::seepage::{PoreResistance, SEEPAGE_VELOCITY};
-use sph_tests::{Bench, Says, evaluated, exchanged, line_of, scene, shipped};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{CHECK_AND_RUN, Says, bench, evaluated, momentum, move_as, scene, shipped};
 
 /// The scene without its references, which are files beside it.
 fn permeameter() -> String {
@@ -128,20 +126,15 @@ fn nothing_flows_at_rest_nor_in_a_tank_that_is_accelerated_nor_in_free_fall() {
 #[test]
 fn momentum_of_the_water_is_conserved() {
     let mut parts = plain();
-    let free = &mut parts.flow.world.free;
-    let position = free.get(fields::POSITION).unwrap().to_vec();
-    let velocity = free.get_mut(fields::VELOCITY).unwrap();
-    for (u, x) in velocity.iter_mut().zip(&position) {
-        *u = Vect::from([(90.0 * x[1]).sin(), (70.0 * x[0]).cos()]);
-    }
+    move_as(&mut parts, |x| {
+        Vect::from([(90.0 * x[1]).sin(), (70.0 * x[0]).cos()])
+    });
     let sums = |parts: &Assembled<2>| {
-        let free = &parts.flow.world.free;
-        let mass = free.get(fields::MASS).unwrap();
-        let velocity = free.get(fields::VELOCITY).unwrap();
-        let momentum: Vect<2> = mass.iter().zip(velocity).map(|(m, u)| u * *m).sum();
-        (mass.to_vec(), mass.iter().sum::<f64>(), momentum)
+        let mass = parts.flow.world.free.get(fields::MASS).unwrap().to_vec();
+        let whole = mass.iter().sum::<f64>();
+        (mass, whole, momentum(parts).0)
     };
-    let (before, mass, momentum) = sums(&parts);
+    let (before, mass, start) = sums(&parts);
     for _ in 0..300 {
         kick(&mut parts, Vect::<2>::zeros(), 9e-5);
     }
@@ -152,7 +145,7 @@ fn momentum_of_the_water_is_conserved() {
     let both = before.iter().zip(&after).zip(phase);
     let soil = both.filter(|(_, p)| **p == 0);
     let soil: f64 = soil.map(|((b, a), _)| (a - b).abs()).sum();
-    let pushed = (carried - momentum).norm() / momentum.norm();
+    let pushed = (carried - start).norm() / start.norm();
     println!(
         "of {moved} kg that moved {lost:e} are lost, {:e} stayed in the soil; momentum {pushed:e}",
         soil / moved
@@ -165,17 +158,7 @@ fn momentum_of_the_water_is_conserved() {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    let bench = Bench::with(PROGRAM, &permeameter());
-    let state = |threads: u32| {
-        bench.done(&format!(
-            "run scene.toml --quiet --out r{threads} --threads {threads} --set run.end=0.01"
-        ));
-        bench.state(&format!("r{threads}"))
-    };
-    let one = state(1);
-    for threads in [2, 4] {
-        one.assert_same(&state(threads), &format!("1 and {threads} threads"));
-    }
+    bench!(&permeameter()).same_on_threads("--set run.end=0.01");
 }
 
 #[test]
@@ -194,29 +177,8 @@ fn particles_that_give_too_much_end_the_run() {
     told.says("size of particle | seepage | size_limit");
 }
 
-/// The scene with `from` as `to` is refused at the line that has `at`.
-fn refused(from: &str, to: &str, at: &str, words: &[&str]) {
-    let text = exchanged(&permeameter(), from, to);
-    let line = line_of(&text, at);
-    let refused = Bench::with(PROGRAM, &text).refused("check scene.toml");
-    refused.says(&format!("scene.toml:{line}: | {}", words.join(" | ")));
-}
-
 #[test]
 fn bad_tables_are_refused_at_their_line() {
-    for porosity in ["0.0", "1.0", "1.2"] {
-        let to = format!("porosity = {porosity}");
-        refused("porosity = 0.366", &to, "porosity", &["porosity"]);
-    }
-    let near = ["there is no phase called `beds`", "beads"];
-    refused("soil = \"beads\"", "soil = \"beds\"", "soil =", &near);
-    let other = ["there is no phase called `oil`"];
-    refused("water = \"water\"", "water = \"oil\"", "water =", &other);
-    let same = ["is the soil"];
-    refused("water = \"water\"", "water = \"beads\"", "water =", &same);
-    let missing = ["grain_diameter"];
-    refused("grain_diameter = \"1 mm\"\n", "", "[seepage", &missing);
-    let summed = ["hu-adams"];
-    let other = "[formulation.colagrossi-landrini]";
-    refused("[formulation.hu-adams]", other, "[seepage", &summed);
+    let changes = include_str!("seepage.refused");
+    bench!().refuses("scene.toml", &CHECK_AND_RUN, &permeameter(), changes);
 }

@@ -3,35 +3,7 @@
 use sph_tests::{ran, scene};
 
 /// 0.3 m wide and high, of fine grains: their yield viscosity η_y damps nothing.
-const BLOCK: &str = r#"
-title = "A block of soil between walls"
-dimension = 2
-run.end = 0.3
-numerics = { spacing = 0.02, smoothing_ratio = 2.0, gravity = [0.0, -9.81] }
-formulation.hu-adams = {}
-viscous-operator.monaghan-gingold = { within = "arithmetic" }
-implicit-viscosity.backward-euler = {}
-walls.usaw = { vertices = true }
-[wall.box]
-polyline = [[0.0, 0.5], [0.0, 0.0], [0.3, 0.0], [0.3, 0.5]]
-condition = "free-slip"
-[phase.silt]
-density = 1240.0
-speed_of_sound = 18.0
-equation-of-state.tait = {}
-[phase.silt.rheology.drucker-prager]
-young_modulus = 3e5
-poisson_ratio = 0.3
-friction_angle = "25 deg"
-grain_diameter = 3e-5
-grain_density = 1400.0
-[body.block]
-phase = "silt"
-box = [[0.0, 0.0], [0.3, 0.3]]
-pressure = "hydrostatic"
-[output]
-vtk = false
-"#;
+const BLOCK: &str = include_str!("block.toml");
 
 /// Kinetic energy after 0.3 s, J.
 fn energy(overrides: &[&str]) -> f64 {

@@ -2,16 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use sph_core::{System, Vect, fields};
+use sph_core::{Vect, fields};
 use sph_particles::setup::Assembled;
-use sph_tests::{evaluated, scene};
-
-/// A step, and the forces after it.
-pub fn step(parts: &mut Assembled<2>, dt: f64) {
-    parts.flow.world.dt = dt;
-    parts.integrator.step(&mut parts.flow, dt).unwrap();
-    parts.flow.evaluate().unwrap();
-}
+use sph_tests::{evaluated, scene, spin, step};
 
 /// The longest step, s.
 pub fn longest(parts: &Assembled<2>) -> f64 {
@@ -59,29 +52,7 @@ pub fn top_at(parts: &mut Assembled<2>, time: f64) -> f64 {
 }
 
 /// Without an elastic force of its own.
-const DISC: &str = r#"
-title = "A disc that spins freely"
-dimension = 2
-[run]
-end = 1.0
-[numerics]
-spacing = 0.025
-smoothing_ratio = 2.0
-[viscous-operator.monaghan-gingold]
-within = "arithmetic"
-[phase.rubber]
-density = 1000.0
-speed_of_sound = 20.0
-[phase.rubber.equation-of-state.linear]
-[phase.rubber.rheology.elastic]
-young_modulus = 2.8e5
-poisson_ratio = 0.4
-[body.disc]
-phase = "rubber"
-ellipse = { centre = [0.0, 0.0], semi_axes = [0.25, 0.25] }
-[body.disc.initial.rigid-rotation]
-angular_velocity = 1.0
-"#;
+const DISC: &str = include_str!("disc.toml");
 
 /// What a disc that spins freely with 1 rad/s keeps of its angular momentum in 1000 steps of 1 ms, its elastic force as in `table`.
 pub fn spin_kept(table: &str) -> f64 {
@@ -92,12 +63,4 @@ pub fn spin_kept(table: &str) -> f64 {
         step(&mut parts, 1e-3);
     }
     spin(&parts) / first
-}
-
-/// Σ x × u.
-fn spin(parts: &Assembled<2>) -> f64 {
-    let free = &parts.flow.world.free;
-    let places = free.get(fields::POSITION).unwrap();
-    let all = places.iter().zip(free.get(fields::VELOCITY).unwrap());
-    all.map(|(x, u)| x[0] * u[1] - x[1] * u[0]).sum()
 }

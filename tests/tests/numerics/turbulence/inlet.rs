@@ -3,47 +3,7 @@
 use super::*;
 
 /// Turbulence behind a grid: a uniform flow between an inlet with k and ε and an outlet, without friction on its walls.
-const GRID: &str = r#"
-title = "Turbulence behind a grid"
-dimension = 2
-[run]
-end = 4.0
-[numerics]
-spacing = 0.05
-[eddy-viscosity.k-epsilon]
-energy = "0.01 m²/s²"
-dissipation = "0.01 m²/s³"
-[smoother.brezzi-pitkaranta]
-strength = 0.04
-[walls.usaw]
-vertices = false
-[wall.bottom]
-polyline = [[0.0, 0.0], [2.0, 0.0]]
-condition = "free-slip"
-[wall.outlet]
-polyline = [[2.0, 0.0], [2.0, 0.5]]
-[wall.outlet.open-boundary.outflow]
-memory = "1 s"
-[wall.top]
-polyline = [[2.0, 0.5], [0.0, 0.5]]
-condition = "free-slip"
-[wall.inlet]
-polyline = [[0.0, 0.5], [0.0, 0.0]]
-[wall.inlet.open-boundary.velocity-inlet]
-velocity = "1 m/s"
-values = { turbulent_energy = 0.01, dissipation = 0.01 }
-[phase.water]
-density = 1.0
-speed_of_sound = 12.0
-rheology.newtonian = { viscosity = "1e-4 Pa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [2.0, 0.5]]
-velocity = [1.0, 0.0]
-[output]
-every = 4.0
-vtk = false
-"#;
+const GRID: &str = include_str!("grid.toml");
 
 /// U dk/dx = −ε and U dε/dx = −C₂ε²/k have k = k₀ s^(−n) and ε = ε₀ s^(−n−1), s = 1 + ε₀x/(n k₀ U), n = 1/(C₂ − 1).
 ///

@@ -10,50 +10,15 @@ use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
 use sph_particles::setup::Assembled;
 use sph_run::Start;
-use sph_tests::{Bench, FinalState, PERIODIC, Ran, Says, near, ran, run_into, scene};
+use sph_tests::{
+    FinalState, PERIODIC, Says, bench, finished, move_as, near, ran, run_into, scene, within,
+};
 use sph_turbulence::{
     DISSIPATION, FRICTION_VELOCITY, Smagorinsky, TURBULENT_ENERGY, WALL_DISTANCE, WallLaw,
 };
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
-
 /// Water over a bed along x, without gravity.
-const CHANNEL: &str = r#"
-title = "Water over a bed"
-dimension = 2
-[run]
-end = 0.02
-[numerics]
-spacing = 0.01
-smoothing_ratio = 2.0
-periodic = { x = [0.0, 0.2] }
-[viscous-operator.morris]
-within = "arithmetic"
-[walls.usaw]
-vertices = false
-[wall.bed]
-polyline = [[0.0, 0.0], [0.2, 0.0]]
-condition = "free-slip"
-[phase.water]
-density = 1000.0
-speed_of_sound = 20.0
-rheology.newtonian = { viscosity = "1 mPa s" }
-[body.water]
-phase = "water"
-box = [[0.0, 0.0], [0.2, 0.2]]
-velocity = [1.0, 0.0]
-[probe.shear]
-kind = "wall-force"
-wall = "bed"
-[probe.bed]
-kind = "friction-velocity"
-wall = "bed"
-[wall-function.log-law]
-walls = ["bed"]
-[output]
-every = 0.02
-vtk = false
-"#;
+const CHANNEL: &str = include_str!("channel.toml");
 
 /// The same in space.
 fn in_space() -> String {
@@ -83,10 +48,6 @@ fn evaluated<const D: usize>(text: &str, changes: &[&str]) -> World<D> {
     sph_tests::evaluated(&scene(text, changes)).flow.world
 }
 
-fn finished(text: &str, threads: usize) -> Ran {
-    ran(&scene(text, &[]), threads).unwrap_or_else(|e| panic!("{e}"))
-}
-
 /// A run that stops after 20 steps and goes on with two threads.
 fn in_two_parts(text: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
@@ -106,13 +67,10 @@ fn in_two_parts(text: &str) -> tempfile::TempDir {
 fn eddies(closure: &str, velocity: impl Fn(&Vect<2>) -> Vect<2>) -> (Vec<f64>, f64) {
     let open = PERIODIC.replace("periodic = { x = [0.0, 1.0], y = [0.0, 1.0] }", "");
     let text = format!("{open}\n{closure}");
-    let mut flow = assembled::<2>(&text, &[]).flow;
-    let free = &mut flow.world.free;
-    let places = free.get(fields::POSITION).expect("places");
-    let moving = places.iter().map(velocity).collect();
-    free.put(fields::VELOCITY, moving).expect("a column");
-    flow.evaluate().expect("an evaluation");
-    let world = &flow.world;
+    let mut parts = assembled::<2>(&text, &[]);
+    move_as(&mut parts, velocity);
+    parts.flow.evaluate().expect("an evaluation");
+    let world = &parts.flow.world;
     let reach = world.kernel.support_radius();
     let inside = |x: &Vect<2>| x.iter().all(|c| *c > reach && *c < 1.0 - reach);
     let eddies = world.free.get(fields::EDDY_VISCOSITY).expect("eddies");
@@ -153,7 +111,7 @@ fn solid_rotation_has_no_eddies_of_smagorinskys() {
 
 #[test]
 fn large_eddies_in_the_plane_are_warned_of() {
-    let bench = Bench::with(PROGRAM, &format!("{PERIODIC}\n{WALE}\n"));
+    let bench = bench!(&format!("{PERIODIC}\n{WALE}\n"));
     let outcome = bench.done("run scene.toml");
     (outcome.out + &outcome.err).says("in two its results");
 }
@@ -268,10 +226,7 @@ fn van_driests_damping_has_the_friction_velocity_of_the_bed() {
     {
         let share = damped[i] / undamped[i];
         let [low, high] = [least, largest].map(|u| Smagorinsky::damped(x.y * u / 1e-4).powi(2));
-        assert!(
-            share >= low - 1e-12 && share <= high + 1e-12,
-            "{share} at {x}"
-        );
+        within(share, low - 1e-12..=high + 1e-12, &format!("at {x}"));
     }
 }
 

@@ -1,21 +1,14 @@
 //! What scenes of turbulence are refused for, and what laminar ones do not carry.
 
 use sph_particles::setup::examine;
-use sph_tests::{Says, refusal, refusals, scene};
+use sph_tests::{Says, assembly_refuses, refusal, scene};
 
 use crate::turbulence::CHANNEL;
 use crate::turbulence::phases::OVER_A_BED;
 
-/// A scene is refused with the changes of a file.
-fn refuses(text: &str, file: &'static str) {
-    for case in refusals(file) {
-        refusal::<2>(&case.of(text)).says(case.said[0]);
-    }
-}
-
 #[test]
 fn misfits_are_refused_with_the_expected_value() {
-    refuses(CHANNEL, include_str!("channel.refused"));
+    assembly_refuses(CHANNEL, include_str!("channel.refused"));
     let bare = CHANNEL
         .replace("[wall-function.log-law]\nwalls = [\"bed\"]\n", "")
         .replace("condition = \"free-slip\"", "");
@@ -25,7 +18,7 @@ fn misfits_are_refused_with_the_expected_value() {
 
 #[test]
 fn misfits_of_several_phases_are_refused_with_the_expected_value() {
-    refuses(OVER_A_BED, include_str!("phases.refused"));
+    assembly_refuses(OVER_A_BED, include_str!("phases.refused"));
 }
 
 /// The channel between an inlet and an outlet, with k–ε and what comes in as a table says.

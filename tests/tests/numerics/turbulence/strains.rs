@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 use sph_core::{System, Vect, fields};
 use sph_neighbours::World;
 use sph_probes::Probe;
-use sph_tests::PERIODIC;
+use sph_tests::{PERIODIC, below, move_as};
 use sph_turbulence::{AlgebraicStress, LAST_STRAIN, TurbulentEnergyProbe};
 
 use crate::turbulence::{CHANNEL, assembled};
@@ -20,13 +20,10 @@ fn waves(x: &Vect<2>) -> Vect<2> {
 }
 
 fn evaluated(text: &str, changes: &[&str], velocity: fn(&Vect<2>) -> Vect<2>) -> World<2> {
-    let mut flow = assembled::<2>(text, changes).flow;
-    let places = flow.world.free.get(fields::POSITION).expect("places");
-    let moving = places.iter().map(velocity).collect();
-    let free = &mut flow.world.free;
-    free.put(fields::VELOCITY, moving).expect("a column");
-    flow.evaluate().expect("an evaluation");
-    flow.world
+    let mut parts = assembled::<2>(text, changes);
+    move_as(&mut parts, velocity);
+    parts.flow.evaluate().expect("an evaluation");
+    parts.flow.world
 }
 
 /// The gradient has its own walk where an output shows it, and none where it comes with the interactions.
@@ -64,18 +61,12 @@ fn the_energy_of_even_eddies_is_the_mass_times_theirs() {
 fn smagorinskys_eddies_follow_the_strain_of_the_last_step() {
     let text = format!("{CHANNEL}[eddy-viscosity.smagorinsky]\nstrain_of = \"last-step\"\n");
     let mut parts = assembled::<2>(&text, &[]);
-    let places = parts.flow.world.free.get(fields::POSITION).expect("places");
-    let moving = places.iter().map(waves).collect();
-    let free = &mut parts.flow.world.free;
-    free.put(fields::VELOCITY, moving).expect("a column");
+    move_as(&mut parts, waves);
     parts.flow.evaluate().expect("an evaluation");
     let of = |world: &World<2>, field| world.free.get(field).expect("a column").to_vec();
     let first = of(&parts.flow.world, fields::STRAIN_RATE);
-    assert!(
-        of(&parts.flow.world, fields::EDDY_VISCOSITY)
-            .iter()
-            .all(|e| *e == 0.0)
-    );
+    let none = of(&parts.flow.world, fields::EDDY_VISCOSITY);
+    assert!(none.iter().all(|e| *e == 0.0));
     let step = parts.integrator.step(&mut parts.flow, 1e-5);
     step.expect("a step");
     let world = &parts.flow.world;
@@ -135,11 +126,7 @@ fn normal_stresses_of_eddies_push_across_layers() {
     // once for κ = 2π of the velocity, which counts twice in the stress, once for κ = 4π of the stress; and as much again
     // for its higher waves.
     let bound = 2.0 * (2.0 + 4.0) * (5.0 / 9.0) * (TAU * h).powi(2) / 4.0;
-    assert!(
-        worst < bound * largest,
-        "{worst} of {largest}: {}, bound {bound}",
-        worst / largest
-    );
+    below(worst, bound * largest, "m/s² off");
     let scale = mass.iter().sum::<f64>() * largest;
     assert!(total.norm() < 1e-10 * scale, "{total} of {scale}");
 }

@@ -3,14 +3,12 @@
 use std::fs::File;
 use std::process::Stdio;
 
-use sph_tests::{Bench, DAM_BREAK, Says, wait_until};
-
-use crate::bad_files::PROGRAM;
+use sph_tests::{Bench, CHECK_AND_RUN, DAM_BREAK, Says, bench, wait_until};
 
 const REFERENCE: &str = "\n[reference.front]\nprobe = \"front\"\nfile = \"r.csv\"\n";
 
 fn with_reference(keys: &str, table: &str) -> Bench {
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}{REFERENCE}{keys}\n"));
+    let bench = bench!(&format!("{DAM_BREAK}{REFERENCE}{keys}\n"));
     bench.write("r.csv", table);
     bench
 }
@@ -43,22 +41,15 @@ fn references_that_nothing_can_be_compared_with_are_refused_before_the_run() {
 
 #[test]
 fn norms_that_cannot_be_computed_are_refused_before_the_run() {
-    for (keys, told) in [
-        ("norm = \"lag\"", "`lag` needs the `period`"),
-        ("norm = \"decay-rate\"", "`decay-rate` needs a `solution`"),
-        ("norm = \"rms\"", "`rms` is for fields"),
-        (
-            "scale_value = 0.0",
-            "a scale is a finite number other than 0",
-        ),
-        (
-            "scale_time = 0.0",
-            "a scale is a finite number other than 0",
-        ),
-    ] {
-        let bench = with_reference(keys, "t,u\n0,1\n1,1\n");
-        bench.refused("check scene.toml").says(told);
-    }
+    let bench = bench!();
+    bench.write("r.csv", "t,u\n0,1\n1,1\n");
+    let scene = format!("{DAM_BREAK}{REFERENCE}");
+    bench.refuses(
+        "scene.toml",
+        &CHECK_AND_RUN,
+        &scene,
+        include_str!("norms.refused"),
+    );
 }
 
 /// The run has been paid for: it keeps its summary and says what is missing.
@@ -77,13 +68,13 @@ fn a_reference_that_goes_while_the_run_goes_on_costs_the_comparison_alone() {
 fn a_wall_whose_speed_is_no_number_is_refused() {
     let wall = "\n[wall.block]\nbox = [[0.4, 0.3], [0.46, 0.4]]\nfluid = \"outside\"\n\
                 motion.translate = { along = [0.0, 1.0], table = [[0, 0], [1, 1e308], [2, -1e308]] }\n";
-    let bench = Bench::with(PROGRAM, &format!("{DAM_BREAK}{wall}"));
+    let bench = bench!(&format!("{DAM_BREAK}{wall}"));
     bench.refused("check scene.toml").says("wall.block.motion");
 }
 
 #[test]
 fn a_refused_write_to_stdout_is_an_error() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     for words in ["schema", "check scene.toml --json", "plugins"] {
         let full = File::options().write(true).open("/dev/full");
         let mut command = bench.command(words);
@@ -97,7 +88,7 @@ fn a_refused_write_to_stdout_is_an_error() {
 
 #[test]
 fn a_series_that_is_no_file_is_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     std::fs::create_dir(bench.path("r")).expect("a folder");
     bench.write("precious", "kept");
     std::os::unix::fs::symlink("../precious", bench.path("r/series.csv")).expect("a link");
@@ -108,7 +99,7 @@ fn a_series_that_is_no_file_is_refused() {
 
 #[test]
 fn a_table_of_a_study_has_nothing_that_a_terminal_obeys() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.write(
         "study.toml",
         "title = \"t\"\nscene = \"scene.toml\"\nerror = \"front\"\n[[vary]]\nname = \"v\"\n\

@@ -1,23 +1,30 @@
 //! Checkpoints with right checksums that no run can have written.
 
+use std::path::PathBuf;
+
 use serde_json::{Value, json};
 use sph_io::Checkpoint;
-use sph_tests::{Bench, DAM_BREAK};
-
-use crate::bad_files::PROGRAM;
+use sph_tests::{Bench, DAM_BREAK, bench};
 
 /// Bits of a real, as headers have them.
 fn bits(x: f64) -> Value {
     x.to_bits().into()
 }
 
-#[test]
-fn clocks_and_counters_that_no_run_has_are_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let run = "run scene.toml --quiet --out r --set run.end=0.02";
-    bench.done(run);
+const RUN: &str = "run scene.toml --quiet --out r --set run.end=0.02";
+
+/// A run, and where its checkpoint is with what is in it.
+fn finished() -> (Bench, PathBuf, Checkpoint) {
+    let bench = bench!(DAM_BREAK);
+    bench.done(RUN);
     let path = bench.path("r/checkpoint.sph");
     let whole = Checkpoint::load(&path).expect("a checkpoint");
+    (bench, path, whole)
+}
+
+#[test]
+fn clocks_and_counters_that_no_run_has_are_refused() {
+    let (bench, path, whole) = finished();
     let series = bench.read("r/series.csv");
     let huge: Value = u64::MAX.into();
     let cases: Vec<(&str, Value, &str)> = vec![
@@ -63,26 +70,18 @@ fn clocks_and_counters_that_no_run_has_are_refused() {
             .pointer_mut(place)
             .unwrap_or_else(|| panic!("no {place}")) = value.clone();
         forged.save(&path).expect("saved");
-        let failed = bench.failed(&format!("{run} --resume"));
+        let failed = bench.failed(&format!("{RUN} --resume"));
         failed.says(&format!("checkpoint.sph | {told}"));
-        assert_eq!(
-            bench.read("r/series.csv"),
-            series,
-            "{place}: the series was touched"
-        );
+        assert_eq!(bench.read("r/series.csv"), series, "{place}");
     }
     whole.save(&path).expect("saved");
-    bench.done(&format!("{run} --resume"));
+    bench.done(&format!("{RUN} --resume"));
 }
 
 #[test]
 fn particles_without_mass_or_with_no_velocity_are_refused() {
     use sph_io::ColumnData::F64;
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
-    let run = "run scene.toml --quiet --out r --set run.end=0.02";
-    bench.done(run);
-    let path = bench.path("r/checkpoint.sph");
-    let whole = Checkpoint::load(&path).expect("a checkpoint");
+    let (bench, path, whole) = finished();
     for (column, value, told) in [
         ("mass", 0.0, "without mass"),
         ("mass", -1.0, "without mass"),
@@ -98,14 +97,14 @@ fn particles_without_mass_or_with_no_velocity_are_refused() {
         }
         forged.save(&path).expect("saved");
         for words in ["--resume", "--resume --changed"] {
-            bench.failed(&format!("{run} {words}")).says(told);
+            bench.failed(&format!("{RUN} {words}")).says(told);
         }
     }
 }
 
 #[test]
 fn a_state_past_the_end_is_not_taken_from_another_run_either() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     bench.done("run scene.toml --quiet --out r --set run.end=0.05");
     let failed = bench.failed("run scene.toml --out s --from r --set run.end=0.02");
     failed.says("past the end of the scene, 0.02 s");

@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK};
+use sph_tests::{Bench, DAM_BREAK, Outcome, bench};
 
 use crate::bad_files::PROGRAM;
 
@@ -32,7 +32,7 @@ fn refused(bench: &Bench) -> (u64, String) {
 
 #[test]
 fn a_scene_of_many_wrong_keys_takes_memory_as_its_length() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let many = |n: usize, one: &dyn Fn(usize) -> String| (0..n).map(one).collect::<String>();
     let cases = [
         (
@@ -72,23 +72,14 @@ fn a_scene_of_many_wrong_keys_takes_memory_as_its_length() {
             text.len() / 1000,
             most / 1_000_000
         );
-        assert!(
-            most < bound,
-            "{what}: {most} bytes of memory for {} of text\n{}",
-            text.len(),
-            &told[..200]
-        );
-        assert!(
-            told.len() < 100_000,
-            "{what}: {} bytes were said",
-            told.len()
-        );
+        assert!(most < bound, "{what}: {most} bytes\n{}", &told[..200]);
+        assert!(told.len() < 100_000, "{what}: {} bytes", told.len());
     }
 }
 
 #[test]
 fn a_pipe_that_nobody_writes_is_refused_and_one_of_the_shell_is_read() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let made = Command::new("mkfifo").arg(bench.path("pipe")).status();
     assert!(made.expect("mkfifo").success());
     for call in [
@@ -117,18 +108,14 @@ fn a_pipe_that_nobody_writes_is_refused_and_one_of_the_shell_is_read() {
     let mut shell = Command::new("bash");
     let shell = shell.args(["-c", &script]).current_dir(bench.folder());
     let output = shell.stdin(Stdio::null()).output().expect("bash");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    Outcome::new(script, &output).ended(0);
 }
 
 #[test]
 fn nothing_from_a_file_is_obeyed_by_a_terminal() {
     let escape = "\u{1b}]0;owned\u{7}\u{1b}[2J";
     let marks = "\u{202e}\u{2066}\u{9b}1m";
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let toml = |text: &str| {
         text.chars()
             .map(|c| format!("\\u{:04x}", c as u32))
@@ -151,10 +138,7 @@ fn nothing_from_a_file_is_obeyed_by_a_terminal() {
                 at.map(|k| &text[k.saturating_sub(20)..k + 1])
             );
         }
-        assert!(
-            !(outcome.out + &outcome.err).is_empty(),
-            "{call} says nothing"
-        );
+        assert!(!(outcome.out + &outcome.err).is_empty(), "{call}");
     };
     bench.write("scene.toml", &titled);
     quiet("check scene.toml", 0);
@@ -180,7 +164,7 @@ fn nothing_from_a_file_is_obeyed_by_a_terminal() {
 
 #[test]
 fn places_are_told_of_deep_nesting_and_of_bytes_that_are_no_text() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let deep = format!(
         "title = \"t\"\nx = {}{}\n",
         "[".repeat(200),
@@ -199,7 +183,7 @@ fn places_are_told_of_deep_nesting_and_of_bytes_that_are_no_text() {
 
 #[test]
 fn trials_and_unpacked_data_leave_nothing_behind() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     std::fs::create_dir_all(bench.path("r")).expect("a folder");
     bench.write("r/.writable-4711", "left by an earlier version");
     std::fs::create_dir_all(bench.path("tmp")).expect("a folder");
@@ -213,17 +197,13 @@ fn trials_and_unpacked_data_leave_nothing_behind() {
     let mut check = bench.command("check dam-break-koshizuka");
     check.env("TMPDIR", bench.path("tmp"));
     assert!(check.output().expect("a check").status.success());
-    assert_eq!(
-        std::fs::read_dir(bench.path("tmp"))
-            .expect("a folder")
-            .count(),
-        0
-    );
+    let left = std::fs::read_dir(bench.path("tmp")).expect("a folder");
+    assert_eq!(left.count(), 0);
 }
 
 #[test]
 fn temporary_files_of_a_kill_go_with_the_next_check() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     std::fs::create_dir_all(bench.path("tmp")).expect("a folder");
     // Whatever its name, this one has something in it and no lock: it is nobody's litter.
     std::fs::create_dir_all(bench.path("tmp/.sph-data-mine/mine")).expect("a folder");
@@ -250,10 +230,7 @@ fn temporary_files_of_a_kill_go_with_the_next_check() {
     // Not a name that a number of a process tells.
     let name = names().remove(0);
     let random = name.strip_prefix(".sph-data-").expect("the prefix");
-    assert!(
-        random.len() >= 6 && random.parse::<u64>().is_err(),
-        "{name}"
-    );
+    assert!(random.len() >= 6 && random.parse::<u64>().is_err());
     assert!(check().output().expect("a check").status.success());
     assert!(names().is_empty(), "{:?}", names());
     assert!(bench.path("tmp/.sph-data-mine/mine").exists());
@@ -261,7 +238,7 @@ fn temporary_files_of_a_kill_go_with_the_next_check() {
 
 #[test]
 fn the_place_of_bytes_that_are_no_text_is_told_of_data_files_too() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let drawn = DAM_BREAK.replace(
         "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n",
         "file = \"w.csv\"\n",
@@ -278,7 +255,7 @@ fn the_place_of_bytes_that_are_no_text_is_told_of_data_files_too() {
 
 #[test]
 fn a_line_of_millions_of_letters_is_not_shown() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let long = "k".repeat(3_000_000);
     for text in [
         format!("{DAM_BREAK}\n{long} = 1\n"),

@@ -1,9 +1,9 @@
 //! Drawings as large as the limits allow, or of a size that only near-linear work gets through.
 
-use sph_tests::{Bench, Outcome, binary_stl};
+use sph_tests::{Bench, Outcome, bench, binary_stl};
 use std::fmt::Write as _;
 
-use crate::bad_files::{PROGRAM, limited};
+use crate::bad_files::limited;
 
 /// Address space of a check, KiB: twice the gigabyte that no drawing of these sizes may take.
 const MEMORY: u32 = 2_000_000;
@@ -29,7 +29,7 @@ fn good(bench: &Bench, scene: &str) {
 
 #[test]
 fn a_drawing_of_eight_thousand_sub_paths() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let squares = (0..8000).fold(String::new(), |mut all, k| {
         let _ = write!(all, "M{} {}h5v5h-5z", k % 90 * 10, k / 90 * 10);
         all
@@ -55,7 +55,7 @@ fn a_drawing_of_eight_thousand_sub_paths() {
 
 #[test]
 fn polylines_of_twenty_thousand_corners() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let body = "[[-100, -100], [-50, -50]]";
     for tooth in [[1, 0], [0, 1]] {
         let corners = (0..20_000).fold(String::new(), |mut all, k| {
@@ -81,7 +81,7 @@ fn polylines_of_twenty_thousand_corners() {
 
 #[test]
 fn facets_by_the_ten_thousand() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let mut state = 1_u64;
     let mut random = || {
         state = state

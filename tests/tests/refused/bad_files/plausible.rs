@@ -1,48 +1,23 @@
 //! Numbers that nature does not have are remarked upon at their line, and those with which no run can be right
 //! are refused there.
 
-use sph_tests::{Bench, DAM_BREAK, SOIL, Says, line_of, one_line, refusals};
-
-use crate::bad_files::PROGRAM;
+use sph_tests::{CHECK_AND_RUN, DAM_BREAK, SOIL, bench};
 
 #[test]
 fn settings_that_no_run_survives_are_refused_at_their_line() {
-    let bench = Bench::new(PROGRAM);
-    for (scene, file) in [
+    for (scene, changes) in [
         (DAM_BREAK, include_str!("impossible.refused")),
         (SOIL, include_str!("impossible_soil.refused")),
     ] {
-        for case in refusals(file) {
-            let scene = case.of(scene);
-            bench.write("scene.toml", &scene);
-            let place = format!("scene.toml:{}:", line_of(&scene, case.at));
-            for command in ["check", "run"] {
-                let refused = bench.refused(&format!("{command} scene.toml"));
-                refused.says(&format!("{place} | {} | no run can be right", case.said[0]));
-            }
-        }
+        bench!().refuses("scene.toml", &CHECK_AND_RUN, scene, changes);
     }
 }
 
 #[test]
 fn implausible_values_are_remarked_on_at_their_line() {
-    let bench = Bench::new(PROGRAM);
-    for (scene, file) in [
-        (DAM_BREAK, include_str!("implausible.refused")),
-        (SOIL, include_str!("implausible_soil.refused")),
-    ] {
-        for case in refusals(file) {
-            let scene = case.of(scene);
-            bench.write("scene.toml", &scene);
-            // A line of the remarks may be broken.
-            let told = one_line(&bench.done("check scene.toml").out);
-            let line = line_of(&scene, case.at);
-            told.says(&format!(
-                "scene.toml:{line}: | {} | is it meant?",
-                case.said[0]
-            ));
-        }
-    }
+    let bench = bench!();
+    bench.remarks(DAM_BREAK, include_str!("implausible.remarked"));
+    bench.remarks(SOIL, include_str!("implausible_soil.remarked"));
     bench.write("scene.toml", DAM_BREAK);
     let plain = bench.call("check scene.toml");
     assert!(!plain.out.contains("is it meant?"), "{}", plain.out);
@@ -53,7 +28,7 @@ fn implausible_values_are_remarked_on_at_their_line() {
 
 #[test]
 fn time_that_would_stand_still_is_refused() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     // A step of 1e-4 s is below the distance of doubles at 1e15 s.
     let set = "--set run.end=1e15 --set output.every=1e14 --set output.series_every=1e14 \
                --set run.checkpoint_every=1e14";

@@ -2,9 +2,7 @@
 
 use std::os::unix::fs::symlink;
 
-use sph_tests::{Bench, DAM_BREAK};
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sph-under-test");
+use sph_tests::{Bench, DAM_BREAK, Says, bench};
 
 const POLYLINE: &str =
     "polyline = [[0.0, 0.0], [0.6, 0.0], [0.6, 0.6], [0.0, 0.6]]\nclosed = true\n";
@@ -42,7 +40,7 @@ fn scenes(file: &str) -> Vec<(&'static str, String)> {
 
 /// home/scenes/scene.toml and, outside its folder, home/data.
 fn home() -> Bench {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     for folder in ["scenes", "scenes/sub", "data"] {
         std::fs::create_dir(bench.path(folder)).expect("a folder");
     }
@@ -68,16 +66,7 @@ fn no_file_of_a_scene_is_out_of_its_folder() {
             refused.says(&format!("{word} | {key} | --allow-path"));
             // The folder may be allowed; then it is read, and what is wrong is another thing.
             let outcome = bench.call("check scenes/scene.toml --allow-path data");
-            assert!(
-                !outcome.err.contains("--allow-path"),
-                "{key}: {}",
-                outcome.err
-            );
-            assert!(
-                !outcome.err.contains("cannot read"),
-                "{key}: {}",
-                outcome.err
-            );
+            outcome.err.lacks("--allow-path | cannot read");
             bench.refused("check scenes/scene.toml --allow-path scenes");
         }
     }

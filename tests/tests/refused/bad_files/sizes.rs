@@ -4,9 +4,9 @@
 use std::fs::File;
 use std::time::{Duration, Instant};
 
-use sph_tests::{Bench, DAM_BREAK, exchanged};
+use sph_tests::{Bench, DAM_BREAK, bench, exchanged};
 
-use crate::bad_files::{PROGRAM, limited};
+use crate::bad_files::limited;
 
 /// Memory that may be asked for, KiB, and the time that may pass.
 const MEMORY: u32 = 3_000_000;
@@ -34,7 +34,7 @@ fn called(bench: &Bench, call: &str, words: &str) {
 
 #[test]
 fn of_scenes() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let set = |from: &str, to: &str| exchanged(DAM_BREAK, from, to);
     let spacing = |x: &str| set("spacing = 0.02", &format!("spacing = {x}"));
     refused(&bench, &spacing("3e-7"), "particles | GB | larger spacing");
@@ -80,7 +80,7 @@ fn of_scenes() {
 
 #[test]
 fn of_scenes_in_space() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     // Each ball has 5 million facets, which is allowed; all have five billion.
     let balls: String = (0..1000)
         .map(|k| format!("[wall.b{k}]\nsphere = {{ centre = [{k}, 0, 0], radius = 0.3, subdivisions = 500 }}\n"))
@@ -100,7 +100,7 @@ fn of_scenes_in_space() {
 
 #[test]
 fn of_files_that_scenes_name() {
-    let bench = Bench::new(PROGRAM);
+    let bench = bench!();
     let stl = format!("{SPACE}[wall.w]\nfile = \"w.stl\"\n");
     let mut few = vec![0; 84 + 2 * 50];
     for (count, words) in [
@@ -148,7 +148,7 @@ fn of_files_that_scenes_name() {
 
 #[test]
 fn of_studies() {
-    let bench = Bench::with(PROGRAM, DAM_BREAK);
+    let bench = bench!(DAM_BREAK);
     let values: String = (1..=101).map(|k| format!("{k},")).collect();
     let axis = |key: &str| format!("[[vary]]\nkey = \"{key}\"\nvalues = [{values}]\n");
     let study = format!(

@@ -145,10 +145,8 @@ fn every_crate_that_the_workspace_declares_has_a_version_and_a_user() {
         }
         let version = entry.as_str().or_else(|| entry.get("version")?.as_str());
         let begins = version.and_then(|v| v.chars().next());
-        assert!(
-            begins.is_some_and(|c| c.is_ascii_digit()),
-            "version of {name}"
-        );
+        let digit = begins.is_some_and(|c| c.is_ascii_digit());
+        assert!(digit, "version of {name}");
         assert!(used.contains_key(&name), "nobody uses {name}");
     }
 }
