@@ -80,8 +80,8 @@ impl WallMesh<3> for Walls<3> {
                     .faces(&elements[from..end])
                     .next()
                     .map_or(0, <[_]>::len);
-                let face = self.planes.faces[elements[from].index()];
-                let left = match &self.planes.maps[face as usize] {
+                let face = self.mesh.elements[elements[from].index()].face;
+                let left = match &self.planes.faces[face].map {
                     Some(_) => 1,
                     None => part,
                 };
