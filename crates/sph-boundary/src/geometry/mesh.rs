@@ -16,11 +16,12 @@ mod near;
 
 pub(crate) use closest::angle;
 pub use closest::{Closest, Feature, SeenElement};
+pub(crate) use elements::Simplices;
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub(crate) use grid::Sides;
 pub use grid::{Grid, NearElement, NearRows};
-pub(crate) use inside::{RayQueries, SAME_DISTANCE, SAME_HEIGHT};
-pub(crate) use motion::{ElementMeasures, bed_of};
+pub(crate) use inside::{SAME_DISTANCE, SAME_HEIGHT};
+pub(crate) use motion::bed_of;
 
 /// Points closer than this part of the spacing are the same place, and so much may a point lie off
 /// an edge or a plane and still be on it.

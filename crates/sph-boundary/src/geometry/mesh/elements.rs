@@ -217,6 +217,23 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
+/// The parts of a mesh that differ between segments and triangles.
+pub trait Simplices<const D: usize> {
+    /// Finds length or area, centre and normal of an element.
+    fn measure(&mut self, element: usize);
+    /// Changes of nodes and faces by walls that moved.
+    fn follow(&mut self, moved: &[bool]);
+    /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
+    /// of it and −1 where it is on the far side.
+    fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
+    /// True if the fluid lies beyond all walls along the positive direction of an axis.
+    fn is_fluid_beyond(&self, along: usize) -> bool;
+    /// Prepares the winding number of walls that end freely.
+    fn wind(&self, sides: &mut Sides<D>);
+    /// Winding number of walls that end freely, around a place.
+    fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;
+}
+
 impl Mesh<3> {
     /// Edges of an image of a face relative to a point, m; bitwise the same vectors as [`Mesh::corners_from`] gives.
     pub fn face_edges_from(

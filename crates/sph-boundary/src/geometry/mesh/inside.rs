@@ -3,7 +3,7 @@
 use sph_core::BoxTree;
 
 use super::closest::{Feature, angle, nearest_to_origin};
-use super::elements::Mesh;
+use super::elements::{Mesh, Simplices};
 use super::grid::{Grid, NearElement, Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
@@ -18,22 +18,9 @@ const RIM: f64 = 1e-9;
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
 
-/// Queries of a ray and the eye to a mesh of one dimension.
-pub trait RayQueries<const D: usize> {
-    /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
-    /// of it and −1 where it is on the far side.
-    fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
-    /// True if the fluid lies beyond all walls along the positive direction of an axis.
-    fn is_fluid_beyond(&self, along: usize) -> bool;
-    /// Winding number of a place where walls end freely.
-    fn wind(&self, sides: &mut Sides<D>);
-    /// Winding number of walls that end freely, around a place.
-    fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;
-}
-
 impl<const D: usize> Mesh<D>
 where
-    Self: RayQueries<D>,
+    Self: Simplices<D>,
 {
     /// True if a point is in the fluid, as the walls see it.
     ///
