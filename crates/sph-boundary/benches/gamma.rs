@@ -1,7 +1,7 @@
 //! Cost of γ and ∇γ per pair of a point and a segment.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
-use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
+use sph_boundary::{ElementTree, Mesh, PeriodicBox, Polyline, Renormalisation2d};
 use sph_kernels::PolynomialKernel;
 
 fn main() {
@@ -41,30 +41,30 @@ fn segment(bencher: Bencher, kernel: usize) {
     });
 }
 
-fn tank() -> (Mesh<2>, Renormalisation2d, Grid<2>) {
+fn tank() -> (Mesh<2>, Renormalisation2d, ElementTree<2>) {
     let square = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
     let line = Polyline::closed("tank", square);
     let mesh = Mesh::<2>::build(&[line], 0.5, &PeriodicBox::none()).unwrap();
     let renormalisation = Renormalisation2d::new(sph_kernels::wendland_c2().shape(), 1.0).unwrap();
-    let grid = Grid::build(&mesh, renormalisation.kernel_radius());
-    (mesh, renormalisation, grid)
+    let tree = ElementTree::build(&mesh, renormalisation.kernel_radius());
+    (mesh, renormalisation, tree)
 }
 
 /// A thousand points at the distance given from the floor of a tank, search included.
 #[divan::bench(args = [0.1, 1.0, 1.9, 50.0])]
 fn points(bencher: Bencher, height: f64) {
-    let (mesh, renormalisation, grid) = tank();
+    let (mesh, renormalisation, tree) = tank();
     bencher.counter(ItemsCount::new(1000usize)).bench(|| {
         let points = (0..1000).map(|i| [5.0 + 0.09 * f64::from(i), height]);
         points
-            .map(|point| renormalisation.at(black_box(point), &mesh, &grid).gamma())
+            .map(|point| renormalisation.at(black_box(point), &mesh, &tree).gamma())
             .sum::<f64>()
     });
 }
 
-/// Building the grid over 800 segments.
+/// Building the tree over 800 segments.
 #[divan::bench]
-fn grid(bencher: Bencher) {
+fn tree(bencher: Bencher) {
     let (mesh, ..) = tank();
-    bencher.bench(|| Grid::build(black_box(&mesh), 2.0));
+    bencher.bench(|| ElementTree::build(black_box(&mesh), 2.0));
 }

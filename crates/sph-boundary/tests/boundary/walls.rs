@@ -1,6 +1,8 @@
 //! Geometry of walls: what is accepted, what is refused and with which words.
 
-use sph_boundary::{BoundaryError, Grid, Mesh, PeriodicBox, Polyline, Pose, WallEnd, thin_plate};
+use sph_boundary::{
+    BoundaryError, ElementTree, Mesh, PeriodicBox, Polyline, Pose, WallEnd, thin_plate,
+};
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
 
@@ -188,7 +190,7 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.3], [4.0, 0.0]]);
     let post = Polyline::closed("post", vec![[3.8, 0.8], [3.8, 1.2], [4.3, 1.2], [4.3, 0.8]]);
     let mesh = Mesh::<2>::build(&[floor, post], 0.2, &domain).unwrap();
-    let grid = Grid::build(&mesh, 0.6);
+    let tree = ElementTree::build(&mesh, 0.6);
     let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
         let t = [b[0] - a[0], b[1] - a[1]];
         let part = ((p[0] - a[0]) * t[0] + (p[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
@@ -197,7 +199,7 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
     };
     for i in 0..400 {
         let point = [0.01 * f64::from(i), 0.05 + 0.0371 * f64::from(i % 50)];
-        let found: Vec<(usize, i8)> = grid
+        let found: Vec<(usize, i8)> = tree
             .near(&mesh, point, 0.5)
             .map(|near| (near.index(), near.image[0]))
             .collect();
@@ -214,7 +216,7 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
         }
         assert_eq!(found, expected, "at {point:?}");
     }
-    assert_eq!(grid.near(&mesh, [1.0, 900.0], 0.5).count(), 0);
+    assert_eq!(tree.near(&mesh, [1.0, 900.0], 0.5).count(), 0);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::grid::{NearElement, Sides};
+use super::tree::{NearElement, Sides};
 use crate::geometry::vector::{Point, add, sub};
 use crate::{FreeEnd, PeriodicBox, Pose, RigidMotion};
 

@@ -1,6 +1,6 @@
 //! What must hold without any reference.
 
-use sph_boundary::{Grid, Mesh, PeriodicBox, Polyline, Pose, Renormalisation2d};
+use sph_boundary::{ElementTree, Mesh, PeriodicBox, Polyline, Pose, Renormalisation2d};
 
 use crate::gamma::scene::{H, Scene};
 use crate::random::Random;
@@ -116,7 +116,7 @@ fn mirrored_rotated_and_moved_walls_give_the_same() {
     moved.move_walls(&[pose]).unwrap();
     let shape = sph_kernels::wendland_c2().shape().clone();
     let renormalisation = Renormalisation2d::new(&shape, H).unwrap();
-    let grid = Grid::build(&moved, renormalisation.kernel_radius());
+    let tree = ElementTree::build(&moved, renormalisation.kernel_radius());
     for point in points(&scene, 200) {
         let here = scene.sums(point);
         let there = mirror.sums([-point[0], point[1]]);
@@ -124,7 +124,7 @@ fn mirrored_rotated_and_moved_walls_give_the_same() {
             assert!((a.gamma() - b.gamma()).abs() < 1e-13);
             assert!((a.gradient[0] + b.gradient[0]).abs() < 1e-12);
         }
-        let turned = renormalisation.at(map(point), &moved, &grid);
+        let turned = renormalisation.at(map(point), &moved, &tree);
         assert!(
             (turned.gamma() - here[0].gamma()).abs() < 1e-14 * 5.0,
             "a few roundings of 6 m"
@@ -165,7 +165,7 @@ fn a_periodic_wall_has_no_seam() {
     long.extend([[15.0, 0.0], [15.0, 1.5], [-10.0, 1.5]]);
     let scene = Scene::new(vec![long], 0.25);
     let renormalisation = Renormalisation2d::new(sph_kernels::wendland_c2().shape(), H).unwrap();
-    let grid = Grid::build(&mesh, renormalisation.kernel_radius());
+    let tree = ElementTree::build(&mesh, renormalisation.kernel_radius());
     let below = 5.0f64.next_down();
     for x in [
         0.0,
@@ -183,7 +183,7 @@ fn a_periodic_wall_has_no_seam() {
             if !mesh.contains([x, y]) && (x - 2.5f64).abs() < 2.4 {
                 continue;
             }
-            let here = renormalisation.at([x, y], &mesh, &grid).gamma();
+            let here = renormalisation.at([x, y], &mesh, &tree).gamma();
             let there = scene.sums([x, y])[0].gamma();
             assert!(
                 (here - there).abs() < 1e-14,

@@ -1,6 +1,6 @@
 //! A geometry with everything needed to compare the closed form with the reference.
 
-use sph_boundary::{GammaSum, Grid, Mesh, PeriodicBox, Polyline, Renormalisation2d};
+use sph_boundary::{ElementTree, GammaSum, Mesh, PeriodicBox, Polyline, Renormalisation2d};
 
 use crate::gamma::kernels::TestKernel;
 use crate::gamma::reference;
@@ -11,7 +11,7 @@ pub const H: f64 = 0.7;
 pub struct Scene {
     pub loops: Vec<Vec<[f64; 2]>>,
     pub mesh: Mesh<2>,
-    grid: Grid<2>,
+    tree: ElementTree<2>,
     kernels: Vec<TestKernel>,
     renormalisations: Vec<Renormalisation2d>,
 }
@@ -41,11 +41,11 @@ impl Scene {
             .iter()
             .map(|r| r.kernel_radius())
             .fold(0.0, f64::max);
-        let grid = Grid::build(&mesh, reach);
+        let tree = ElementTree::build(&mesh, reach);
         Self {
             loops,
             mesh,
-            grid,
+            tree,
             kernels,
             renormalisations,
         }
@@ -54,7 +54,7 @@ impl Scene {
     pub fn sums(&self, point: [f64; 2]) -> Vec<GammaSum<2>> {
         self.renormalisations
             .iter()
-            .map(|r| r.at(point, &self.mesh, &self.grid))
+            .map(|r| r.at(point, &self.mesh, &self.tree))
             .collect()
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sph_boundary::{Grid, Mesh, PeriodicBox, Pose};
+use sph_boundary::{ElementTree, Mesh, PeriodicBox, Pose};
 
 use crate::surface::shapes::*;
 
@@ -21,7 +21,7 @@ fn a_ball_of_eighty_thousand_triangles() {
         let built = start.elapsed();
         assert!(leak(&mesh) < 1e-12);
         let start = Instant::now();
-        let grid = Grid::build(&mesh, 8.0 * spacing);
+        let tree = ElementTree::build(&mesh, 8.0 * spacing);
         let sorted = start.elapsed();
         assert!(mesh.contains([0.0, 0.0, 1.5]));
         let mut random = Random(5);
@@ -34,7 +34,7 @@ fn a_ball_of_eighty_thousand_triangles() {
         let start = Instant::now();
         let near: usize = points
             .iter()
-            .map(|p| grid.near(&mesh, *p, 4.0 * spacing).count())
+            .map(|p| tree.near(&mesh, *p, 4.0 * spacing).count())
             .sum();
         let listed = start.elapsed();
         let start = Instant::now();
@@ -42,7 +42,7 @@ fn a_ball_of_eighty_thousand_triangles() {
             .unwrap();
         let moved = start.elapsed();
         println!(
-            "{} triangles drawn, {} meshed at {spacing} m in {built:.2?}; grid {sorted:.2?}; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
+            "{} triangles drawn, {} meshed at {spacing} m in {built:.2?}; tree {sorted:.2?}; 10⁴ points sided in {asked:.2?} ({fluid} fluid), listed in {listed:.2?} \
              ({near} near); moved in {moved:.2?}",
             ball.triangles.len(),
             mesh.elements.len(),

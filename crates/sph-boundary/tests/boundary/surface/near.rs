@@ -1,6 +1,6 @@
 //! Triangles near a point, and the nearest place on them.
 
-use sph_boundary::{Feature, Grid, Mesh, NearElement, NearRows, SeenElement};
+use sph_boundary::{ElementTree, Feature, Mesh, NearElement, NearRows, SeenElement};
 
 use crate::surface::shapes::*;
 
@@ -99,11 +99,11 @@ fn the_grid_finds_all_and_only_those() {
     let mut random = Random(11);
     let mut found = 0;
     for reach in [0.1, 0.6, 1.1] {
-        let grid = Grid::build(&mesh, reach);
+        let tree = ElementTree::build(&mesh, reach);
         for radius in [reach, 0.7 * reach] {
             for _ in 0..200 {
                 let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
-                let near: Vec<_> = grid.near(&mesh, point, radius).collect();
+                let near: Vec<_> = tree.near(&mesh, point, radius).collect();
                 assert_eq!(near, all_near(&mesh, point, radius), "{point:?}");
                 found += near.len();
             }
@@ -111,7 +111,7 @@ fn the_grid_finds_all_and_only_those() {
     }
     println!("{found} triangles found, as by brute force");
     assert!(
-        Grid::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
+        ElementTree::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
             .near(&crate::surface::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
             .next()
             .is_none()
@@ -127,7 +127,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
     let mut random = Random(12);
     let (mut found, mut besides) = (0, 0);
     for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
-        let grid = Grid::build(&mesh, reach);
+        let tree = ElementTree::build(&mesh, reach);
         // Points side by side, and now and then one far away.
         let mut points = Vec::new();
         for _ in 0..40 {
@@ -136,7 +136,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
             points.extend((0..8).map(beside));
         }
         let mut rows = NearRows::default();
-        grid.rows(&points, radius, &mut rows);
+        tree.rows(&points, radius, &mut rows);
         assert_eq!(rows.counts.len(), points.len());
         let mut rest = &rows.elements[..];
         for (point, count) in points.iter().zip(rows.counts) {
@@ -153,7 +153,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
             assert!(!row.iter().any(out), "{point:?}");
             // The same whoever is served with it.
             let mut same = NearRows::default();
-            grid.rows(&[*point], radius, &mut same);
+            tree.rows(&[*point], radius, &mut same);
             assert_eq!(same.elements, row);
             found += near.len();
             besides += row.len() - near.len();
@@ -168,12 +168,12 @@ fn a_node_is_the_same_vector_in_all_triangles() {
     let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);
     let mesh = mesh_in(&[pipe], 0.25, &domain);
-    let grid = Grid::build(&mesh, 0.8);
+    let tree = ElementTree::build(&mesh, 0.8);
     let point = [0.41, 0.3, 0.2];
     let mut seen = std::collections::HashMap::new();
     let mut faces = std::collections::BTreeSet::new();
     let mut repeated = 0;
-    for near in grid.near(&mesh, point, 0.8) {
+    for near in tree.near(&mesh, point, 0.8) {
         let triangle = mesh.elements[near.index()];
         faces.insert((triangle.face, near.image));
         for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
@@ -203,13 +203,13 @@ fn a_node_is_the_same_vector_in_all_triangles() {
 #[test]
 fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
     let mesh = mesh(&[block("block", [0.0; 3], [1.0, 2.0, 1.5])], 0.25);
-    let grid = Grid::build(&mesh, 2.0);
+    let tree = ElementTree::build(&mesh, 2.0);
     let mut random = Random(8);
     let (mut found, mut largest) = (0, 0.0_f64);
     for _ in 0..400 {
         let at = random.point([-0.5; 3], [1.5, 2.5, 2.0]);
         let offset = random.point([-0.3; 3], [0.3; 3]);
-        let near = grid.near(&mesh, at, 1.5);
+        let near = tree.near(&mesh, at, 1.5);
         let seen: Vec<_> = near.map(|n| mesh.seen(at, n)).collect();
         let place: [f64; 3] = std::array::from_fn(|k| at[k] + offset[k]);
         // Beyond the sides along every axis, negative between them.
