@@ -203,7 +203,7 @@ pub fn over_a_flat_wall(name: &str, rows: usize, offset: f64) -> Bench<2> {
 }
 
 /// Numbers in [0, 1) that are the same at every run.
-pub struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
@@ -220,7 +220,13 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
+
     pub fn point<const D: usize>(&mut self, low: f64, high: f64) -> Vect<D> {
         Vect::from_fn(|_, _| self.between(low, high))
+    }
+
+    /// A place in a box.
+    pub fn within(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.between(low[k], high[k]))
     }
 }

@@ -19,7 +19,8 @@ where
     /// Moves every wall to its pose, one per wall, given with respect to the reference position.
     ///
     /// Positions never accumulate rounding: they are computed from the reference. Fluid angles change only where walls
-    /// bend. Walls whose pose is unchanged cost nothing. An [`ElementTree`](crate::ElementTree) must be built again afterwards.
+    /// bend. Walls whose pose is unchanged cost nothing. An [`ElementTree`](crate::ElementTree) must be built again
+    /// afterwards.
     ///
     /// # Errors
     /// A number of poses other than that of the walls, two walls that are joined or of one group with different poses, or

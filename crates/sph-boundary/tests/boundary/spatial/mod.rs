@@ -8,7 +8,6 @@ mod solid;
 mod solids;
 mod touching;
 mod triangles;
-mod vector;
 
 use sph_boundary::Renormalisation3d;
 use sph_kernels::{Kernel, PolynomialKernel};

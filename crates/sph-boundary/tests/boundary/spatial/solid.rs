@@ -2,7 +2,7 @@
 
 use sph_boundary::{GammaSum, Renormalisation3d};
 
-use super::vector::{Vector, cross, dot, minus, plus, unit};
+use crate::vector::{Vector, cross, dot, minus, plus, unit};
 
 /// Faces as corners counter-clockwise about the inward normal, and that normal.
 pub struct Solid(pub Vec<(Vec<Vector>, Vector)>);
@@ -64,9 +64,9 @@ impl Solid {
     pub fn at(&self, of: &Renormalisation3d, point: Vector) -> GammaSum<3> {
         let mut sum = GammaSum::<3>::default();
         for (face, n) in &self.0 {
-            let n_corners = face.len();
-            let edges = (0..n_corners)
-                .map(|i| [face[i], face[(i + 1) % n_corners]].map(|c| minus(c, point)));
+            let next = face.iter().cycle().skip(1);
+            let edges = face.iter().zip(next);
+            let edges = edges.map(|(a, b)| [*a, *b].map(|c| minus(c, point)));
             let height = dot(minus(point, face[0]), *n);
             sum.add(&of.polygon(height, *n, edges), *n);
         }

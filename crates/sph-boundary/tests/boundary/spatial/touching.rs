@@ -5,9 +5,9 @@ use sph_kernels::PiecewisePolynomial;
 use super::corners::on_line;
 use super::planes::excess;
 use super::solid::Solid;
-use super::vector::{Vector, plus, turned};
 use super::{TOLERANCE, assert_within, kernels};
 use crate::random::Random;
+use crate::vector::{Vector, plus, turned};
 
 const OFFSETS: [f64; 17] = [
     0.0, 1e-16, -1e-16, 1e-14, -1e-14, 1e-12, -1e-12, 1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8,

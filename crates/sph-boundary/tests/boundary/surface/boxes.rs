@@ -193,8 +193,8 @@ fn walls_of_a_group_move_together() {
         } else {
             turn.turned(a.normal)
         };
-        assert!(norm(sub(b.normal, turned)) < 1e-14);
-        assert!(norm(sub(b.normal, mesh.faces[b.face].normal)) < 1e-14);
+        assert!(norm(minus(b.normal, turned)) < 1e-14);
+        assert!(norm(minus(b.normal, mesh.faces[b.face].normal)) < 1e-14);
     }
     assert!(!mesh.contains([1.75, 1.5, 2.9]) && mesh.contains([1.75, 1.5, 1.4]));
     mesh.move_walls(&[rest, rest, rest]).unwrap();

@@ -7,7 +7,7 @@ use crate::surface::shapes::*;
 /// 10⁴ random points and the lattice points of the mesh, which its rays hit in edges and nodes.
 fn check(mesh: &Mesh<3>, low: Point, high: Point, fluid: impl Fn(Point) -> Option<bool>) {
     let mut random = Random(42);
-    let mut points: Vec<Point> = (0..10_000).map(|_| random.point(low, high)).collect();
+    let mut points: Vec<Point> = (0..10_000).map(|_| random.within(low, high)).collect();
     let nodes: Vec<Point> = mesh.nodes.iter().map(|n| n.position).collect();
     for node in nodes.iter().step_by(nodes.len() / 500 + 1) {
         for other in nodes.iter().step_by(nodes.len() / 20 + 1) {
@@ -61,8 +61,8 @@ fn an_icosphere() {
     // Convex: inside of all planes.
     let height = |p: Point| {
         let over = faces.iter().map(|[a, b, c]| {
-            let n = cross(sub(*b, *a), sub(*c, *a));
-            dot(sub(p, *a), n) / norm(n)
+            let n = cross(minus(*b, *a), minus(*c, *a));
+            dot(minus(p, *a), n) / norm(n)
         });
         over.fold(f64::NEG_INFINITY, f64::max)
     };

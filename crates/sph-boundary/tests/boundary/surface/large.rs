@@ -26,7 +26,7 @@ fn a_ball_of_eighty_thousand_triangles() {
         assert!(mesh.contains([0.0, 0.0, 1.5]));
         let mut random = Random(5);
         let points: Vec<Point> = (0..10_000)
-            .map(|_| random.point([-1.2; 3], [1.2; 3]))
+            .map(|_| random.within([-1.2; 3], [1.2; 3]))
             .collect();
         let start = Instant::now();
         let fluid = points.iter().filter(|p| mesh.contains(**p)).count();

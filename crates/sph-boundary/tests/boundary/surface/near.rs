@@ -27,7 +27,7 @@ fn the_nearest_place_against_samples() {
     let mut features = [0; 3];
     let mut worst: f64 = 0.0;
     for _ in 0..300 {
-        let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
+        let point = random.within([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
         for triangle in (0..mesh.elements.len()).step_by(7) {
             let near = NearElement {
                 element: triangle as u32,
@@ -49,7 +49,7 @@ fn the_nearest_place_against_samples() {
                 }
                 Feature::Edge(e) => {
                     let e = e as usize;
-                    let edge = sub(corners[(e + 1) % 3], corners[e]);
+                    let edge = minus(corners[(e + 1) % 3], corners[e]);
                     assert!(dot(closest.offset, edge).abs() < 1e-12);
                     features[1] += 1;
                 }
@@ -102,7 +102,7 @@ fn the_grid_finds_all_and_only_those() {
         let tree = ElementTree::build(&mesh, reach);
         for radius in [reach, 0.7 * reach] {
             for _ in 0..200 {
-                let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
+                let point = random.within([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
                 let near: Vec<_> = tree.near(&mesh, point, radius).collect();
                 assert_eq!(near, all_near(&mesh, point, radius), "{point:?}");
                 found += near.len();
@@ -131,7 +131,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
         // Points side by side, and now and then one far away.
         let mut points = Vec::new();
         for _ in 0..40 {
-            let first = random.point([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
+            let first = random.within([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
             let beside = |k: usize| [0, 1, 2].map(|x| first[x] + 0.1 * (k >> x & 1) as f64);
             points.extend((0..8).map(beside));
         }
@@ -207,8 +207,8 @@ fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
     let mut random = Random(8);
     let (mut found, mut largest) = (0, 0.0_f64);
     for _ in 0..400 {
-        let at = random.point([-0.5; 3], [1.5, 2.5, 2.0]);
-        let offset = random.point([-0.3; 3], [0.3; 3]);
+        let at = random.within([-0.5; 3], [1.5, 2.5, 2.0]);
+        let offset = random.within([-0.3; 3], [0.3; 3]);
         let near = tree.near(&mesh, at, 1.5);
         let seen: Vec<_> = near.map(|n| mesh.seen(at, n)).collect();
         let place: [f64; 3] = std::array::from_fn(|k| at[k] + offset[k]);

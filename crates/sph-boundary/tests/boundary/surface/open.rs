@@ -56,7 +56,7 @@ fn a_hole_in_a_closed_wall_is_described() {
     // Particles fill the ball.
     let mut random = Random(7);
     let points: Vec<Point> = (0..20_000)
-        .map(|_| random.point([-0.9; 3], [0.9; 3]))
+        .map(|_| random.within([-0.9; 3], [0.9; 3]))
         .filter(|p| norm(*p) < 0.9)
         .collect();
     let message = mesh.check_free_edges(&points, 0.2).unwrap_err().to_string();

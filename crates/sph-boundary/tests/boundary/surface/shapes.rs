@@ -4,26 +4,8 @@ use std::collections::HashMap;
 
 use sph_boundary::{Mesh, PeriodicBox, Surface};
 
-pub type Point = [f64; 3];
-
-pub fn sub(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-pub fn dot(a: Point, b: Point) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-pub fn cross(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
-}
-
-pub fn norm(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
+pub use crate::bench::Random;
+pub use crate::vector::{Vector as Point, cross, dot, minus, norm};
 
 pub fn surface(name: &str, points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Surface {
     Surface {
@@ -106,7 +88,7 @@ pub fn icosphere(levels: usize, radius: f64) -> Surface {
     for (a, b) in [(1.0, g), (-1.0, g), (1.0, -g), (-1.0, -g)] {
         points.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
-    let near = |a: usize, b: usize| (norm(sub(points[a], points[b])) - 2.0).abs() < 1e-9;
+    let near = |a: usize, b: usize| (norm(minus(points[a], points[b])) - 2.0).abs() < 1e-9;
     let mut triangles = Vec::new();
     for a in 0..12 {
         for b in a + 1..12 {
@@ -185,23 +167,7 @@ pub fn leak(mesh: &Mesh<3>) -> f64 {
 
 /// θ of the nodes at a place.
 pub fn theta_at(mesh: &Mesh<3>, place: Point) -> Vec<f64> {
-    let here = |p: Point| norm(sub(p, place)) < 1e-9;
+    let here = |p: Point| norm(minus(p, place)) < 1e-9;
     let nodes = mesh.nodes.iter().filter(|n| here(n.position));
     nodes.map(|n| n.theta).collect()
-}
-
-/// Numbers in [0, 1), the same in every run.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn point(&mut self, low: Point, high: Point) -> Point {
-        [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) * self.number())
-    }
 }

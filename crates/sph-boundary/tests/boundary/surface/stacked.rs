@@ -22,7 +22,7 @@ impl Stack {
         for x in 0..SIDE {
             for y in 0..SIDE {
                 for z in 0..SIDE {
-                    stack.solid[x][y][z] = random.number() < part;
+                    stack.solid[x][y][z] = random.next() < part;
                 }
             }
         }
@@ -151,12 +151,12 @@ fn areas_and_angles_of_stacks_turned_out_of_the_axes() {
     for seed in 1..30 {
         let stack = Stack::new(seed * 1009, 0.3, false);
         let mut random = Random(seed);
-        let translation = random.point([-3.0; 3], [3.0; 3]);
-        let axis = random.point([-1.0; 3], [1.0; 3]);
+        let translation = random.within([-3.0; 3], [3.0; 3]);
+        let axis = random.within([-1.0; 3], [1.0; 3]);
         let length = dot(axis, axis).sqrt();
         let pose = Pose {
             translation,
-            ..Pose::turned_about(axis.map(|x| x / length), 3.0 * random.number(), [1.0; 3])
+            ..Pose::turned_about(axis.map(|x| x / length), 3.0 * random.next(), [1.0; 3])
         };
         let mut walls = stack.walls();
         for p in walls.iter_mut().flat_map(|w| &mut w.points) {

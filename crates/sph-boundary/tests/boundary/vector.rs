@@ -23,8 +23,12 @@ pub fn minus(a: Vector, b: Vector) -> Vector {
     plus(a, -1.0, b)
 }
 
+pub fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
 pub fn unit(a: Vector) -> Vector {
-    a.map(|x| x / dot(a, a).sqrt())
+    a.map(|x| x / norm(a))
 }
 
 /// The unit normal of a triangle, counter-clockwise.
