@@ -128,22 +128,6 @@ impl<const D: usize> Bench<D> {
         self.wall.geometry(&mut self.world).expect("geometry");
     }
 
-    /// [`Bench::refresh`], and the marks follow their particles if those are sorted anew.
-    pub fn refresh_sorting(&mut self, marks: &mut [bool]) {
-        let before = self.positions().to_vec();
-        self.refresh();
-        if before != self.positions() {
-            let mut order: Vec<usize> = (0..marks.len()).collect();
-            let key = |x: &Vect<D>| x.map(f64::to_bits).data.0;
-            order.sort_by_key(|&i| key(&before[i]));
-            let old = marks.to_vec();
-            for (i, x) in self.positions().iter().enumerate() {
-                let found = order.binary_search_by_key(&key(x), |&k| key(&before[k]));
-                marks[i] = old[order[found.expect("the same particles")]];
-            }
-        }
-    }
-
     /// The walls at a time, geometry fresh.
     pub fn move_to(&mut self, time: f64) {
         self.world.time = time;
@@ -190,6 +174,15 @@ impl<const D: usize> Bench<D> {
         let here = all.filter(|(x, _)| (*x - place).norm() < 1e-9);
         here.map(|(_, share)| *share).collect()
     }
+}
+
+/// The largest differences of γ and of ∇γ between two benches with the same particles.
+pub fn largest<const D: usize>(a: &Bench<D>, b: &Bench<D>) -> [f64; 2] {
+    assert_eq!(a.positions(), b.positions());
+    let pairs = a.gamma().iter().zip(b.gamma());
+    let gamma = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let gradients = (0..a.positions().len()).map(|i| (a.gradient(i) - b.gradient(i)).norm());
+    [gamma, gradients.fold(0.0, f64::max)]
 }
 
 /// Rows k = 1 … `rows` over a flat wall at y = 0 that is periodic in x; h = 1, δr = 1/2.

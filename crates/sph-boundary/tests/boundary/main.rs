@@ -1,7 +1,10 @@
 //! Wall integrals, wall geometry and wall treatments, in the plane and in space.
 
 mod bench;
+mod constrain;
+mod dummy;
 mod gamma;
+mod motion;
 mod plugin;
 mod random;
 mod spatial;

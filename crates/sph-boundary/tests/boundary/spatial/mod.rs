@@ -2,9 +2,9 @@
 
 mod corners;
 mod paths;
-mod planes;
+pub mod planes;
 mod quadrature;
-mod solid;
+pub mod solid;
 mod solids;
 mod touching;
 mod triangles;

@@ -4,6 +4,7 @@ use sph_boundary::WallSpec;
 use sph_core::Vect;
 
 use crate::bench::{Bench, wide};
+use crate::close;
 use crate::spatial_plugin::shapes::{block, tank, wall};
 
 const SPACING: f64 = 0.25;
@@ -11,14 +12,8 @@ const SPACING: f64 = 0.25;
 const N: usize = 8;
 
 fn boxed(surface: sph_boundary::Surface) -> Bench<3> {
-    let far = vec![Vect::repeat(1.0)];
-    Bench::new(
-        "usaw",
-        &[WallSpec::at_rest(wall(surface))],
-        SPACING,
-        wide(),
-        far,
-    )
+    let walls = [WallSpec::at_rest(wall(surface))];
+    Bench::new("usaw", &walls, SPACING, wide(), vec![Vect::repeat(1.0)])
 }
 
 /// How many coordinates are on a face of the box.
@@ -43,37 +38,25 @@ fn in_a_box_faces_have_a_half_edges_a_quarter_and_corners_an_eighth_of_three_qua
     let bench = boxed(tank([0.0; 3], [size; 3]));
     let points = &bench.world.walls.points;
     for (x, share) in points.position.iter().zip(&points.share) {
-        match faces(x) {
-            1 => assert!((share - 0.5).abs() < 1e-14, "{x}: {share}"),
-            2 => assert!((share - 0.25).abs() < 1e-14, "{x}: {share}"),
-            // A corner has three quarters of a square of wall.
-            _ => assert!((share - 0.125 * 0.75).abs() < 1e-14, "{x}: {share}"),
-        }
+        // A corner has three quarters of a square of wall.
+        let expected = [0.5, 0.25, 0.125 * 0.75][faces(x) - 1];
+        close(*share, expected, 1e-14, x);
     }
     let [inside, flat, edge, corner] = sums(&bench);
     let n = N - 1;
-    assert_eq!(
-        [inside.0, flat.0, edge.0, corner.0],
-        [0, 6 * n * n, 12 * n, 8]
-    );
-    assert!(
-        (corner.1 - 8.0 * 0.125 * 0.75).abs() < 1e-13,
-        "{}",
-        corner.1
-    );
+    let counts = [inside, flat, edge, corner].map(|sum| sum.0);
+    assert_eq!(counts, [0, 6 * n * n, 12 * n, 8]);
 }
 
 /// The cells of free particles inside and the shares on the wall fill the box.
 #[test]
 fn free_cells_and_shares_fill_the_box_but_for_a_quarter_of_a_cell_at_its_corners() {
     let size = N as f64 * SPACING;
-    let total: f64 = sums(&boxed(tank([0.0; 3], [size; 3])))
-        .iter()
-        .map(|s| s.1)
-        .sum();
+    let sums = sums(&boxed(tank([0.0; 3], [size; 3])));
+    let total: f64 = sums.iter().map(|s| s.1).sum();
     let cells = (N as f64).powi(3) - (N as f64 - 1.0).powi(3);
     // Eight corners with 3/32 instead of 1/8.
-    assert!((total - (cells - 0.25)).abs() < 1e-12, "{total} of {cells}");
+    close(total, cells - 0.25, 1e-12, "in all");
 }
 
 #[test]
@@ -81,7 +64,7 @@ fn around_a_block_edges_have_three_quarters_and_corners_seven_eighths_of_three_q
     let size = N as f64 * SPACING;
     let [_, flat, edge, corner] = sums(&boxed(block("block", [0.0; 3], [size; 3])));
     let per_point = |(count, sum): (usize, f64)| sum / count as f64;
-    assert!((per_point(flat) - 0.5).abs() < 1e-14);
-    assert!((per_point(edge) - 0.75).abs() < 1e-14);
-    assert!((per_point(corner) - 0.875 * 0.75).abs() < 1e-14);
+    close(per_point(flat), 0.5, 1e-14, "faces");
+    close(per_point(edge), 0.75, 1e-14, "edges");
+    close(per_point(corner), 0.875 * 0.75, 1e-14, "corners");
 }
