@@ -301,7 +301,7 @@ fn along_a_floor<const D: usize>(spec: WallSpec<D>, most_along: f64) {
 fn the_velocity_along_a_flat_wall_is_kept_wherever_the_particle_stands() {
     along_a_floor(fixed_line(floor()), 0.0);
     let slab = block("slab", [-3.0, -3.0, -2.0], [3.0, 3.0, 0.0]);
-    along_a_floor(WallSpec::at_rest(wall(slab)), 1e-12);
+    along_a_floor::<3>(WallSpec::at_rest(wall(slab)), 1e-12);
 }
 
 /// The velocity of a particle over a wall after 1 ms.

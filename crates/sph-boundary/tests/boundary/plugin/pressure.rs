@@ -16,9 +16,8 @@ fn hydrostatic(x: &Vect<2>) -> f64 {
 fn tank(name: &str, offset: f64, gravity: f64) -> Bench<2> {
     let mut bench = over_a_flat_wall(name, 10, offset);
     let mut random = crate::bench::Random::new(7);
-    let positions = bench.world.free.get_mut(fields::POSITION).unwrap();
-    for x in positions.iter_mut() {
-        *x += Vect::<2>::new(random.between(-0.1, 0.1), random.between(-0.1, 0.1));
+    for x in bench.world.free.get_mut(fields::POSITION).unwrap() {
+        *x += random.point::<2>(-0.1, 0.1);
     }
     bench.refresh();
     bench.world.gravity = Vect::<2>::new(0.0, -gravity);

@@ -5,5 +5,5 @@ mod cover;
 mod gamma;
 mod joined;
 mod pressure;
-mod shapes;
+pub mod shapes;
 mod shares;

@@ -2,18 +2,12 @@
 
 use sph_boundary::{Drawing, Surface};
 
-use crate::surface::shapes::{self, surface};
+use crate::surface::shapes;
 pub use crate::surface::shapes::{block, tank};
 
 /// A flat square of the plane z = 0, the fluid above it.
 pub fn floor(low: f64, high: f64) -> Surface {
-    let points = vec![
-        [low, low, 0.0],
-        [high, low, 0.0],
-        [high, high, 0.0],
-        [low, high, 0.0],
-    ];
-    surface("floor", points, vec![[0, 1, 2], [0, 2, 3]])
+    shapes::floor([low; 2], [high; 2])
 }
 
 /// A square pyramid that stands on the plane z = 0, the fluid around it.

@@ -9,11 +9,8 @@ fn sampled(corners: [Point; 3], n: usize) -> f64 {
     for i in 0..=n {
         for j in 0..=n - i {
             let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-            let at = [0, 1, 2].map(|k| {
-                corners[0][k]
-                    + u * (corners[1][k] - corners[0][k])
-                    + v * (corners[2][k] - corners[0][k])
-            });
+            let [a, b, c] = corners;
+            let at = plus(plus(a, u, minus(b, a)), v, minus(c, a));
             nearest = nearest.min(norm(at));
         }
     }
@@ -66,12 +63,9 @@ fn the_nearest_place_against_samples() {
 
 fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     let mut found = Vec::new();
-    let range = |k: usize| {
-        if mesh.domain.periodic[k] {
-            -2..=2i8
-        } else {
-            0..=0
-        }
+    let range = |k: usize| match mesh.domain.periodic[k] {
+        true => -2..=2i8,
+        false => 0..=0,
     };
     for element in 0..mesh.elements.len() as u32 {
         for i in range(0) {
@@ -89,12 +83,17 @@ fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     found
 }
 
-#[test]
-fn the_grid_finds_all_and_only_those() {
+/// A pipe along one period and a body across another one.
+fn pipe_and_body() -> Mesh<3> {
     let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
     let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
-    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    mesh_in(&[pipe, body], 0.25, &domain)
+}
+
+#[test]
+fn the_tree_finds_all_and_only_those() {
+    let mesh = pipe_and_body();
     assert_eq!(size_of::<NearElement<3>>(), 8);
     let mut random = Random(11);
     let mut found = 0;
@@ -110,20 +109,14 @@ fn the_grid_finds_all_and_only_those() {
         }
     }
     println!("{found} triangles found, as by brute force");
-    assert!(
-        ElementTree::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
-            .near(&crate::surface::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
-            .next()
-            .is_none()
-    );
+    let none = mesh_in(&[], 1.0, &mesh.domain);
+    let tree = ElementTree::build(&none, 1.0);
+    assert_eq!(tree.near(&none, [0.0; 3], 1.0).count(), 0);
 }
 
 #[test]
 fn rows_of_points_together_hold_what_is_near_each() {
-    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
-    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
-    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
-    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    let mesh = pipe_and_body();
     let mut random = Random(12);
     let (mut found, mut besides) = (0, 0);
     for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
@@ -142,10 +135,8 @@ fn rows_of_points_together_hold_what_is_near_each() {
         for (point, count) in points.iter().zip(rows.counts) {
             let (row, after) = rest.split_at(count as usize);
             rest = after;
-            assert!(row.windows(2).all(|w| {
-                let key = |n: &NearElement<3>| (n.image, n.element);
-                key(&w[0]) < key(&w[1])
-            }));
+            let keys = row.iter().map(|n| (n.image, n.element));
+            assert!(keys.is_sorted_by(|a, b| a < b));
             let near = all_near(&mesh, *point, radius);
             assert!(near.iter().all(|n| row.contains(n)), "{point:?}");
             // A sphere around a triangle of 0.25 has at most its diagonal.
@@ -185,17 +176,12 @@ fn a_node_is_the_same_vector_in_all_triangles() {
         }
     }
     assert!(repeated > 100);
-    let corners: Vec<Point> = faces
-        .iter()
-        .flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image).flatten())
-        .collect();
-    let known = corners
-        .iter()
-        .filter(|c| seen.values().any(|s| s == *c))
-        .count();
+    let edges = faces.iter();
+    let edges = edges.flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image));
+    let known = edges.flatten().filter(|c| seen.values().any(|s| s == c));
     assert!(
-        known > 10,
-        "{known} corners of faces are corners of triangles"
+        known.count() > 10,
+        "corners of faces are those of triangles"
     );
 }
 

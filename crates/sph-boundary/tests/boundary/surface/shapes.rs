@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sph_boundary::{Mesh, PeriodicBox, Surface};
 
 pub use crate::bench::Random;
-pub use crate::vector::{Vector as Point, cross, dot, minus, norm};
+pub use crate::vector::{Vector as Point, cross, dot, minus, norm, plus};
 
 pub fn surface(name: &str, points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Surface {
     Surface {
@@ -17,10 +17,8 @@ pub fn surface(name: &str, points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Surf
 
 /// A block, the fluid around it.
 pub fn block(name: &str, low: Point, high: Point) -> Surface {
-    let points = (0..8)
-        .map(|c| [0, 1, 2].map(|k| if c >> k & 1 == 1 { high[k] } else { low[k] }))
-        .collect();
-    let quads = [
+    let corner = |c: usize| [0, 1, 2].map(|k| if c >> k & 1 == 1 { high[k] } else { low[k] });
+    let quads: [[u32; 4]; 6] = [
         [0, 2, 3, 1],
         [4, 5, 7, 6],
         [0, 1, 5, 4],
@@ -29,15 +27,26 @@ pub fn block(name: &str, low: Point, high: Point) -> Surface {
         [1, 3, 7, 5],
     ];
     let triangles = quads
-        .iter()
-        .flat_map(|q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
-        .collect();
-    surface(name, points, triangles)
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    surface(name, (0..8).map(corner).collect(), triangles.collect())
 }
 
 /// A tank, the fluid in it.
 pub fn tank(low: Point, high: Point) -> Surface {
     block("tank", low, high).reversed()
+}
+
+/// A flat rectangle of the plane z = 0, the fluid above it.
+pub fn floor(low: [f64; 2], high: [f64; 2]) -> Surface {
+    let corners = [
+        [low[0], low[1]],
+        [high[0], low[1]],
+        [high[0], high[1]],
+        [low[0], high[1]],
+    ];
+    let points = corners.map(|[x, y]| [x, y, 0.0]).to_vec();
+    surface("floor", points, vec![[0, 1, 2], [0, 2, 3]])
 }
 
 /// The upright prism over a polygon (counter-clockwise, star-shaped from its first corner), the
@@ -117,19 +126,15 @@ pub fn icosphere(levels: usize, radius: f64) -> Surface {
         }
         triangles = finer;
     }
-    let points = points
-        .iter()
-        .map(|p| p.map(|x| x * radius / norm(*p)))
-        .collect();
-    surface("ball", points, triangles)
+    let on_sphere = |p: &Point| p.map(|x| x * radius / norm(*p));
+    surface("ball", points.iter().map(on_sphere).collect(), triangles)
 }
 
 /// A regular polygon about the origin of the plane.
 pub fn polygon(n: usize, radius: f64) -> Vec<[f64; 2]> {
     let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
-    (0..n)
-        .map(|i| [radius * angle(i).cos(), radius * angle(i).sin()])
-        .collect()
+    let corner = |i: usize| [radius * angle(i).cos(), radius * angle(i).sin()];
+    (0..n).map(corner).collect()
 }
 
 /// A box that is periodic along some axes.
