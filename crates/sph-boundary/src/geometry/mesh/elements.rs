@@ -123,7 +123,7 @@ pub struct Opening {
 /// are merged. Inside a face are points of a square lattice along its longest edge; a rectangle of whole spacings gets
 /// exactly the lattice of the spacing. Where walls of one group touch face to face, the common part is left out of
 /// both, so that the mesh is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mesh<const D: usize> {
     /// Names of the walls, in the order given.
     pub walls: Vec<String>,
@@ -172,22 +172,11 @@ impl<const D: usize> Mesh<D> {
         Mesh {
             poses: vec![Pose::default(); walls.len()],
             motions: vec![RigidMotion::default(); walls.len()],
-            beds: Vec::new(),
             walls,
             groups: groups.to_vec(),
             spacing,
             domain: *domain,
-            nodes: Vec::new(),
-            elements: Vec::new(),
-            beside: Vec::new(),
-            free_ends: Vec::new(),
-            faces: Vec::new(),
-            free_edges: Vec::new(),
-            openings: Vec::new(),
-            warnings: Vec::new(),
-            reference: Vec::new(),
-            reference_normals: Vec::new(),
-            sides: OnceLock::new(),
+            ..Mesh::default()
         }
     }
 
