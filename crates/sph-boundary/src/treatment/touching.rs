@@ -124,7 +124,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             return None;
         }
         let mut near = self.near_pairs(&touches);
-        let velocities = self.closing(&self.states, &near);
+        let velocities = self.closing(&self.now.states, &near);
         let mut velocity = velocities.iter();
         // Twice the way of the present velocity, and a tenth of the spacing for accelerations.
         near.retain(|n| {
@@ -155,7 +155,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let stiffness = SHARE * n.area * laws[*law].stiffness;
             for (k, image) in n.pair.into_iter().zip([Vect::zeros(), n.image]) {
                 let Some(touch) = touches[k] else { continue };
-                let arm = n.place - image - self.states[k].place();
+                let arm = n.place - image - self.now.states[k].place();
                 // (a − b)² ≤ 2 a² + 2 b².
                 let inverse = 1.0 / touch.mass + arm.norm_squared() / touch.inertia;
                 swings[k] += 2.0 * stiffness * inverse;
@@ -190,13 +190,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         [time, dt]: [f64; 2],
     ) -> Result<Vec<RigidState<D>>> {
         let Some(mut touching) = self.touching(gravity, dt) else {
-            return self.after(&self.states, loads, [time, dt]);
+            return self.after(&self.now.states, loads, [time, dt]);
         };
         let parts = touching.parts(dt);
         let part = dt / f64::from(parts);
         let [mut forces, mut sums] = [(); 2].map(|()| vec![WallForce::zero(); loads.len()]);
         let heights: Vec<f64> = touching.near.iter().map(|n| n.height).collect();
-        let mut states = self.states.clone();
+        let mut states = self.now.states.clone();
         let mut velocity = self.closing(&states, &touching.near);
         for n in 0..parts {
             touching.forces(&velocity, &mut forces);
@@ -226,7 +226,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             load.contact_force = sum.force * mean;
             load.contact_moment = sum.moment.map(|m| m * mean);
         }
-        let mut whole = self.after(&self.states, loads, [time, dt])?;
+        let mut whole = self.after(&self.now.states, loads, [time, dt])?;
         for (k, state) in whole.iter_mut().enumerate() {
             if self.specs[k].mover.is_some() {
                 state.pose = states[k].pose;
