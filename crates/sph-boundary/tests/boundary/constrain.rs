@@ -154,96 +154,42 @@ fn no_particle_is_lost<T: Target<D>, const D: usize>(
     assert!(hits as f64 > enough, "{what}: only {hits} hits");
 }
 
-fn in_the_plane(what: &str, line: &Polyline, range: [f64; 2]) {
-    no_particle_is_lost(what, line, range, &[], &PLANE);
-}
-
 fn floor() -> Polyline {
     Polyline::open("floor", vec![[-40.0, 0.0], [40.0, 0.0]])
 }
 
 #[test]
-fn ten_thousand_shots_at_a_flat_wall_stay_in_front_of_it() {
-    in_the_plane("flat wall", &floor(), [-2.0, 2.5]);
-}
-
-#[test]
-fn ten_thousand_shots_into_corners_stay_in_them() {
-    let room = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-    in_the_plane("square", &Polyline::closed("room", room), [0.0, 4.0]);
-    let wedge = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0]];
-    in_the_plane("acute", &Polyline::closed("wedge", wedge), [0.0, 4.0]);
-    let corner = |k: u32| {
+fn ten_thousand_shots_at_lines_stay_on_their_side() {
+    let closed = |name, corners: &[[f64; 2]]| Polyline::closed(name, corners.to_vec());
+    let plate = |thickness| {
+        let middle = [[-1.5, -0.5], [0.0, 0.2], [1.5, 0.2]];
+        thin_plate("plate", &middle, thickness).unwrap()
+    };
+    let octagon = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| {
         let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
         [2.0 * cos, 2.0 * sin]
-    };
-    let octagon = Polyline::closed("octagon", (0..8).map(corner).collect());
-    in_the_plane("obtuse corner", &octagon, [-2.0, 2.0]);
-}
-
-#[test]
-fn ten_thousand_shots_at_a_re_entrant_corner_stay_outside() {
-    let block = vec![[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
-    in_the_plane("block", &Polyline::closed("block", block), [-3.0, 3.0]);
-    let blade = vec![[-1.0, -0.3], [0.0, 0.9], [1.0, -0.3]];
-    in_the_plane("blade", &Polyline::closed("blade", blade), [-3.0, 3.0]);
-}
-
-#[test]
-fn ten_thousand_shots_at_a_thin_plate_stay_on_their_side() {
-    for thickness in [0.0, 0.05] {
-        let middle = [[-1.5, -0.5], [0.0, 0.2], [1.5, 0.2]];
-        let plate = thin_plate("plate", &middle, thickness).unwrap();
-        in_the_plane(&format!("plate of {thickness} m"), &plate, [-2.5, 2.5]);
+    });
+    let room = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+    let block = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
+    let blade = [[-1.0, -0.3], [0.0, 0.9], [1.0, -0.3]];
+    let acute = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0]];
+    for (line, range) in [
+        (floor(), [-2.0, 2.5]),
+        (closed("room", &room), [0.0, 4.0]),
+        (closed("acute corner", &acute), [0.0, 4.0]),
+        (closed("obtuse corner", &octagon), [-2.0, 2.0]),
+        // Re-entrant from the fluid.
+        (closed("block", &block), [-3.0, 3.0]),
+        (closed("blade", &blade), [-3.0, 3.0]),
+        (plate(0.0), [-2.5, 2.5]),
+        (plate(0.05), [-2.5, 2.5]),
+    ] {
+        no_particle_is_lost(&line.name, &line, range, &[], &PLANE);
     }
 }
 
 #[test]
-fn a_thousand_shots_into_the_corners_of_a_box_stay_in_it() {
-    let corners = [[0.0; 3], [3.0; 3], [3.0, 0.0, 0.0], [0.0, 1.5, 3.0]];
-    let room = tank([0.0; 3], [3.0; 3]);
-    no_particle_is_lost("box", &room, [0.0, 3.0], &corners, &SPACE);
-}
-
-#[test]
-fn a_thousand_shots_at_a_pyramid_stay_outside() {
-    // Its tip, an edge, a corner and an edge of its base, a face.
-    let aims = [
-        [0.0, 0.0, 1.2],
-        [0.5, 0.5, 0.6],
-        [1.0, 1.0, 0.0],
-        [1.0, 0.2, 0.0],
-        [0.5, 0.0, 0.6],
-    ];
-    no_particle_is_lost("pyramid", &pyramid(1.0, 1.2), [-2.0, 2.0], &aims, &SPACE);
-}
-
-#[test]
-fn a_thousand_shots_at_a_needle_stay_outside() {
-    let aims = [[0.0, 0.0, 2.0], [0.1, 0.1, 1.0], [0.2, 0.2, 0.0]];
-    no_particle_is_lost("needle", &pyramid(0.2, 2.0), [-1.5, 2.5], &aims, &SPACE);
-}
-
-#[test]
-fn a_thousand_shots_into_a_hollow_pyramid_stay_in_its_tip() {
-    let aims = [[0.0, 0.0, 2.4], [0.6, 0.6, 1.8], [2.0, 2.0, 0.0]];
-    let hollow = pyramid(2.0, 2.4).reversed();
-    no_particle_is_lost("hollow", &hollow, [-2.0, 2.4], &aims, &SPACE[..2]);
-}
-
-#[test]
-fn a_thousand_shots_at_thin_plates_stay_on_their_side() {
-    let aims = [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [1.0, 1.0, 0.0]];
-    for thickness in [0.05, 0.001] {
-        let half = 0.5 * thickness;
-        let plate = block("plate", [-1.0, -1.0, -half], [1.0, 1.0, half]);
-        let what = format!("plate of {thickness} m");
-        no_particle_is_lost(&what, &plate, [-2.0, 2.0], &aims, &SPACE);
-    }
-}
-
-#[test]
-fn a_thousand_shots_at_a_re_entrant_edge_and_an_acute_gap_stay_out_of_the_wall() {
+fn a_thousand_shots_at_surfaces_stay_on_their_side() {
     // A step, and over it a gap that closes at a fifth of a right angle.
     let outline = [
         [1.5, 1.5],
@@ -253,14 +199,34 @@ fn a_thousand_shots_at_a_re_entrant_edge_and_an_acute_gap_stay_out_of_the_wall()
         [3.0, 2.0],
         [3.0, 1.5],
     ];
-    let room = prism("room", &outline, [0.0, 3.0]).reversed();
-    let aims = [
-        [1.5, 1.5, 1.5],
-        [3.0, 1.5, 1.5],
-        [1.5, 0.0, 0.0],
-        [0.0, 3.0, 3.0],
-    ];
-    no_particle_is_lost("room", &room, [0.0, 3.0], &aims, &SPACE[..2]);
+    let step = prism("step", &outline, [0.0, 3.0]).reversed();
+    let plate = |half: f64| block("plate", [-1.0, -1.0, -half], [1.0, 1.0, half]);
+    let at_plate = [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [1.0, 1.0, 0.0]];
+    let corners = [[0.0; 3], [3.0; 3], [3.0, 0.0, 0.0], [0.0, 1.5, 3.0]];
+    // The tip of a pyramid, an edge, a corner and an edge of its base, a face.
+    let mut at_pyramid = vec![[0.0, 0.0, 1.2], [0.5, 0.5, 0.6], [1.0, 1.0, 0.0]];
+    at_pyramid.extend([[1.0, 0.2, 0.0], [0.5, 0.0, 0.6]]);
+    let at_needle = [[0.0, 0.0, 2.0], [0.1, 0.1, 1.0], [0.2, 0.2, 0.0]];
+    let in_tip = [[0.0, 0.0, 2.4], [0.6, 0.6, 1.8], [2.0, 2.0, 0.0]];
+    let mut at_step = vec![[1.5, 1.5, 1.5], [3.0, 1.5, 1.5]];
+    at_step.extend([[1.5, 0.0, 0.0], [0.0, 3.0, 3.0]]);
+    let hollow = pyramid(2.0, 2.4).reversed();
+    for (surface, range, aims, steps) in [
+        (
+            tank([0.0; 3], [3.0; 3]),
+            [0.0, 3.0],
+            &corners[..],
+            &SPACE[..],
+        ),
+        (pyramid(1.0, 1.2), [-2.0, 2.0], &at_pyramid, &SPACE),
+        (pyramid(0.2, 2.0), [-1.5, 2.5], &at_needle, &SPACE),
+        (hollow, [-2.0, 2.4], &in_tip, &SPACE[..2]),
+        (plate(0.025), [-2.0, 2.0], &at_plate, &SPACE),
+        (plate(0.0005), [-2.0, 2.0], &at_plate, &SPACE),
+        (step, [0.0, 3.0], &at_step, &SPACE[..2]),
+    ] {
+        no_particle_is_lost(&surface.name, &surface, range, aims, steps);
+    }
 }
 
 /// From the clearance itself upwards, over nodes and between them. The impact is plastic: it ends at the clearance, to

@@ -345,11 +345,7 @@ fn a_sloping_bed_is_the_wall_drawn_so<B: Block<D>, const D: usize>() {
 }
 
 #[test]
-fn a_sloping_bed_of_the_plane_is_the_wall_drawn_so() {
+fn a_sloping_bed_is_the_wall_drawn_there() {
     a_sloping_bed_is_the_wall_drawn_so::<Plane, 2>();
-}
-
-#[test]
-fn a_sloping_bed_in_space_is_the_wall_drawn_so() {
     a_sloping_bed_is_the_wall_drawn_so::<Space, 3>();
 }

@@ -31,6 +31,14 @@ pub fn unit(a: Vector) -> Vector {
     a.map(|x| x / norm(a))
 }
 
+/// The directed edges around a face as seen from a point.
+pub fn edges(face: &[Vector], point: Vector) -> impl Iterator<Item = [Vector; 2]> {
+    let next = face.iter().cycle().skip(1);
+    face.iter()
+        .zip(next)
+        .map(move |(a, b)| [*a, *b].map(|c| minus(c, point)))
+}
+
 /// The unit normal of a triangle, counter-clockwise.
 pub fn normal([a, b, c]: [Vector; 3]) -> Vector {
     unit(cross(minus(b, a), minus(c, a)))

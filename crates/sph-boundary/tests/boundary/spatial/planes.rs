@@ -8,7 +8,7 @@ use sph_kernels::PiecewisePolynomial;
 use super::{TOLERANCE, assert_within, kernels, quadrature};
 use crate::close;
 use crate::random::Random;
-use crate::vector::{Vector, minus, plus};
+use crate::vector::{Vector, edges, minus, plus};
 
 const UP: Vector = [0.0, 0.0, 1.0];
 
@@ -34,16 +34,6 @@ pub fn excess(shape: &PiecewisePolynomial, height: f64) -> f64 {
     quadrature::between(&mut f, &shape.breaks, 0.0, height.abs()).copysign(height)
 }
 
-/// The directed edges of polygons given by their corners.
-fn edges(outlines: &[Vec<Vector>], point: Vector) -> Vec<[Vector; 2]> {
-    let seen = |outline: &Vec<Vector>| {
-        let n = outline.len();
-        let edge = |i: usize| [outline[i], outline[(i + 1) % n]].map(|c| minus(c, point));
-        (0..n).map(edge).collect::<Vec<_>>()
-    };
-    outlines.iter().flat_map(seen).collect()
-}
-
 fn square(half: f64) -> Vec<Vector> {
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
     corners.map(|[x, y]| [x, y, 0.0]).to_vec()
@@ -58,9 +48,9 @@ fn a_large_polygon_is_a_plane() {
             for i in 0..40 {
                 let height = 0.03 * f64::from(i) * shape.support();
                 let point = [0.3, -0.2, height];
-                let wall = edges(&[square(half)], point);
+                let wall = square(half);
                 let mut sum = GammaSum::<3>::default();
-                sum.add(&of.polygon(height, UP, wall.into_iter()), UP);
+                sum.add(&of.polygon(height, UP, edges(&wall, point)), UP);
                 let gamma = 0.5 + excess(shape, height);
                 worst = worst.max((sum.gamma() - gamma).abs());
                 worst = worst.max((sum.gradient[2] - slope(shape, height)).abs());
@@ -75,8 +65,7 @@ fn the_published_table_comes_out() {
     let kernel = sph_kernels::wendland_c2();
     let of = &kernels()[0].1;
     for [d, gradient, gamma] in PLANE {
-        let wall = edges(&[square(50.0)], [0.0, 0.0, d]);
-        let value = of.polygon(d, UP, wall.into_iter());
+        let value = of.polygon(d, UP, edges(&square(50.0), [0.0, 0.0, d]));
         close(1.0 - value.gamma, gamma, 1e-9, d);
         close(value.kernel, gradient, 1e-9, d);
         close(0.5 + excess(kernel.shape(), d), gamma, 1e-9, d);
@@ -88,7 +77,7 @@ fn out_of_reach_is_nothing() {
     for (_, of) in kernels() {
         let radius = of.kernel_radius();
         for point in [[0.0, 0.0, 1.001 * radius], [3.0 + 1.5 * radius, 0.0, 0.1]] {
-            let value = of.polygon(point[2], UP, edges(&[square(3.0)], point).into_iter());
+            let value = of.polygon(point[2], UP, edges(&square(3.0), point));
             assert!(value.kernel.abs() < 1e-15 && value.gamma.abs() < 1e-15);
             let far = [[8.0, 0.0, -0.1], [9.0, 0.0, -0.1], [8.0, 1.0, -0.1]];
             assert!(of.triangle(far, UP).kernel.abs() < 1e-15);
@@ -117,8 +106,8 @@ fn cuts_and_holes_do_not_matter() {
                 // Over a corner of the hole, an edge of it and a cut.
                 point = plus([0.5, 0.5, 0.0], random.between(-1e-6, 1e-6), point);
             }
-            let ring = edges(&[outer.clone(), hole.clone()], point);
-            let one = of.polygon(point[2], UP, ring.into_iter());
+            let ring = edges(&outer, point).chain(edges(&hole, point));
+            let one = of.polygon(point[2], UP, ring);
             let mut many = [0.0; 2];
             for t in &triangles {
                 let part = of.triangle(t.map(|c| minus(c, point)), UP);
