@@ -101,8 +101,8 @@ pub(crate) fn winding<'a>(pieces: impl IntoIterator<Item = &'a Drawing>, x: Vect
     let from = |p: &[f64]| padded(p) - x;
     let around = |piece: &Drawing| match piece {
         Drawing::Line(line) => {
-            let turn = |[a, b]: [[f64; 2]; 2]| {
-                let [a, b] = [b, a].map(|p| from(&p));
+            let turn = |ends: [[f64; 2]; 2]| {
+                let [b, a] = ends.map(|p| from(&p));
                 a.cross(&b).z.atan2(a.dot(&b)) / TAU
             };
             line.edges().map(turn).sum::<f64>()
@@ -127,7 +127,7 @@ fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
     }
     for [a, b] in line.edges() {
         // The fluid is on the left of travel, so the body is gone round clockwise.
-        let [a, b] = [b, a].map(|p| Vector3::new(p[0], p[1], 0.0));
+        let [a, b] = [b, a].map(|p| padded(&p));
         sum.add(&[a, b], 0.5 * (a.x * b.y - a.y * b.x));
     }
     Ok(())
@@ -170,7 +170,7 @@ pub(crate) fn layer<'a>(
         match piece {
             Drawing::Line(line) => {
                 for [a, b] in line.edges() {
-                    let [a, b] = [a, b].map(|p| Vector3::new(p[0], p[1], 0.0));
+                    let [a, b] = [a, b].map(|p| padded(&p));
                     let along = b - a;
                     let normal = Vector3::new(-along.y, along.x, 0.0) * 0.5;
                     // Two points are exact for squares of the arm.
