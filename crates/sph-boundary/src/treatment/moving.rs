@@ -156,9 +156,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     pub fn numbers(&self) -> WallStates {
-        let all = |of: &Placement<D>| -> Vec<f64> {
-            let own = self.movers().flat_map(|(k, _)| of.states[k].numbers());
-            own.chain(of.beds.iter().flat_map(Bed::numbers)).collect()
+        let all = |at: &Placement<D>| -> Vec<f64> {
+            let own = self.movers().flat_map(|(k, _)| at.states[k].numbers());
+            own.chain(at.beds.iter().flat_map(Bed::numbers)).collect()
         };
         WallStates {
             now: all(&self.now),
