@@ -159,9 +159,9 @@ fn rates_of_positions_and_velocities<B: Block<D>, const D: usize>(most: f64) {
     for name in ["usaw", "dummy-particles"] {
         for time in [0.2, 1.1, 2.8, 5.0] {
             let walls = [-step, 0.0, step].map(|more| B::moved(name, B::motion(), time + more));
-            let rate = |of: &dyn Fn(&Bench<D>) -> Vec<Vect<D>>, expected: &[Vect<D>]| {
+            let rate = |column: &dyn Fn(&Bench<D>) -> Vec<Vect<D>>, expected: &[Vect<D>]| {
                 let [before, _, after] = &walls;
-                let pairs = of(before).into_iter().zip(of(after));
+                let pairs = column(before).into_iter().zip(column(after));
                 let rates: Vec<_> = pairs.map(|(b, a)| (a - b) / (2.0 * step)).collect();
                 farthest(&rates, expected)
             };

@@ -33,8 +33,8 @@ impl Scene {
         let lines: Vec<Polyline> = lines.map(line).collect();
         let mesh = Mesh::<2>::build(&lines, spacing, &PeriodicBox::none()).unwrap();
         let kernels = crate::gamma::kernels::all();
-        let of = |k: &TestKernel| Renormalisation2d::new(&k.shape, H).unwrap();
-        let renormalisations: Vec<_> = kernels.iter().map(of).collect();
+        let integrals = |k: &TestKernel| Renormalisation2d::new(&k.shape, H).unwrap();
+        let renormalisations: Vec<_> = kernels.iter().map(integrals).collect();
         let reaches = renormalisations.iter().map(|r| r.kernel_radius());
         let tree = ElementTree::build(&mesh, reaches.fold(0.0, f64::max));
         Self {

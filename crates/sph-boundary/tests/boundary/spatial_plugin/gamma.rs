@@ -50,8 +50,8 @@ fn beyond_the_support_gamma_is_one_and_not_nearly_one() {
 
 /// γ and ∇γ in a box of 8 m, face by face: those of the definitions by the tests of the integrals.
 fn in_a_box(place: [f64; 3]) -> GammaSum<3> {
-    let of = Renormalisation3d::new(wendland_c2().shape(), 1.0).expect("a kernel");
-    Solid::new(Solid::box_of([[0.0, 8.0]; 3])).at(&of, place)
+    let integrals = Renormalisation3d::new(wendland_c2().shape(), 1.0).expect("a kernel");
+    Solid::new(Solid::box_of([[0.0, 8.0]; 3])).at(&integrals, place)
 }
 
 #[test]
