@@ -17,4 +17,4 @@ pub use body::RigidBody;
 pub use freedom::{Freedom, Hold, HoldTurn, Holds};
 pub use mooring::Line;
 pub use prescribed::Prescribed;
-pub use shape::{NoSolid, Solid};
+pub use shape::Solid;

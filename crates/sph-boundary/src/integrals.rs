@@ -6,7 +6,7 @@ pub(crate) mod spatial;
 use sph_kernels::{PiecewisePolynomial, algebra};
 
 use crate::integrals::gamma::{Contact, Renormalisation2d, SegmentIntegral};
-use crate::{BoundaryError, FacetIntegral, Grid, Mesh, Renormalisation3d, Result};
+use crate::{BoundaryError, ElementTree, FacetIntegral, Mesh, Renormalisation3d, Result};
 
 /// σ of a kernel shape that can be integrated, with a smoothing length h, m, that is one.
 ///
@@ -137,13 +137,13 @@ impl GammaSum<3> {
 }
 
 impl Renormalisation2d {
-    /// γ and ∇γ of a point from the segments that `grid` finds around it.
+    /// γ and ∇γ of a point from the segments that `tree` finds around it.
     ///
-    /// `grid` must have been built for at least this kernel radius and for the present position of
+    /// `tree` must have been built for at least this kernel radius and for the present position of
     /// the walls. With periodic directions the point belongs in the box.
-    pub fn at(&self, point: [f64; 2], mesh: &Mesh<2>, grid: &Grid<2>) -> GammaSum<2> {
+    pub fn at(&self, point: [f64; 2], mesh: &Mesh<2>, tree: &ElementTree<2>) -> GammaSum<2> {
         let mut sum = GammaSum::<2>::default();
-        for near in grid.near(mesh, point, self.kernel_radius()) {
+        for near in tree.near(mesh, point, self.kernel_radius()) {
             let normal = mesh.elements[near.index()].normal;
             let [start, end] = mesh.corners_from(point, near);
             sum.add(&self.segment(start, end, normal), near.index(), mesh);
@@ -154,9 +154,9 @@ impl Renormalisation2d {
 
 impl Renormalisation3d {
     /// The same in space.
-    pub fn at(&self, point: [f64; 3], mesh: &Mesh<3>, grid: &Grid<3>) -> GammaSum<3> {
+    pub fn at(&self, point: [f64; 3], mesh: &Mesh<3>, tree: &ElementTree<3>) -> GammaSum<3> {
         let mut sum = GammaSum::<3>::default();
-        for near in grid.near(mesh, point, self.kernel_radius()) {
+        for near in tree.near(mesh, point, self.kernel_radius()) {
             let normal = mesh.elements[near.index()].normal;
             let integral = self.triangle(mesh.corners_from(point, near), normal);
             sum.add(&integral, normal);

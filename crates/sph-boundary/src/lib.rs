@@ -6,10 +6,10 @@
 //! |---|---|---|
 //! | how a wall is drawn | [`Polyline`]; [`thin_plate`] outlines a plate | [`Surface`]: points and triangles |
 //! | cut at the particle spacing, checked, joined, [moved](Pose), with an inside | [`Mesh<2>`] | [`Mesh<3>`] |
-//! | finds elements near a point | [`Grid<2>`] | [`Grid<3>`] |
+//! | finds elements near a point | [`ElementTree<2>`] | [`ElementTree<3>`] |
 //! | γ and ∇γ in closed form for any piecewise polynomial kernel | [`Renormalisation2d`] | [`Renormalisation3d`] |
 //!
-//! [`Walls`] are a mesh and a grid, [`WallMesh`] is what they answer in either dimension; wall plugins are written once
+//! [`Walls`] are a mesh and its tree, [`WallMesh`] is what they answer in either dimension; wall plugins are written once
 //! over it. [`Wall`] is the contract of a plugin, [`Usaw`] and [`DummyParticles`] fulfil it. [`Mover`] is the contract
 //! of what moves a wall, whose [`RigidState`] is kept, rolled back and saved; [`RigidMotion`] moves one along
 //! [`Course`]s, [`Spring`] holds one against the fluid, and [`bodies`] float and sink. All this is the feature
@@ -43,8 +43,8 @@ mod treatment;
 pub use error::BoundaryError;
 pub(crate) use error::Result;
 pub use geometry::mesh::{
-    Closest, Element, Face, FaceEdge, Feature, FreeEdge, Grid, Mesh, NearElement, NearRows, Node,
-    Opening, SeenElement,
+    Closest, Element, ElementTree, Face, FaceEdge, Feature, FreeEdge, Mesh, NearElement, NearRows,
+    Node, Opening, SeenElement,
 };
 pub use geometry::periodic::PeriodicBox;
 pub use geometry::plate::thin_plate;

@@ -1,6 +1,6 @@
 //! γ, the share of a kernel inside a closed mesh of triangles, with `sph-boundary` and `sph-kernels` alone.
 
-use sph_boundary::{BoundaryError, Grid, Mesh, PeriodicBox, Renormalisation3d, Surface};
+use sph_boundary::{BoundaryError, ElementTree, Mesh, PeriodicBox, Renormalisation3d, Surface};
 
 /// A box of 1 m, its triangles anticlockwise seen from the inside, where the fluid is.
 fn tank() -> Surface {
@@ -28,8 +28,8 @@ pub fn gammas(points: &[[f64; 3]]) -> Result<Vec<f64>, BoundaryError> {
     let mesh = Mesh::<3>::build(&[tank()], &[0], 0.1, &PeriodicBox::none())?;
     let kernel = sph_kernels::wendland_c2();
     let gamma = Renormalisation3d::new(kernel.shape(), 0.1)?;
-    let grid = Grid::build(&mesh, gamma.kernel_radius());
-    let at = |x: &[f64; 3]| gamma.at(*x, &mesh, &grid).gamma();
+    let tree = ElementTree::build(&mesh, gamma.kernel_radius());
+    let at = |x: &[f64; 3]| gamma.at(*x, &mesh, &tree).gamma();
     Ok(points.iter().map(at).collect())
 }
 

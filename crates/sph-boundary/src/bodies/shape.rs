@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::bodies::spatial_vector::{padded, six};
-use crate::{Drawing, Polyline, Surface};
+use crate::{BoundaryError, Drawing, Polyline, Result, Surface};
 
 /// A solid of density 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,18 +19,13 @@ pub struct Solid {
     pub inertia: Matrix3<f64>,
 }
 
-/// Reason that a wall is no solid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoSolid {
-    /// An open line or surface.
-    #[error("the wall is open: it encloses no volume")]
-    Open,
-    /// A plate of no thickness.
-    #[error("the wall encloses no volume")]
-    Flat,
-    /// Fluid is inside.
-    #[error("the fluid is inside of it, which makes it a vessel: a body has `fluid = \"outside\"`")]
-    Vessel,
+const OPEN: &str = "the wall is open: it encloses no volume";
+const FLAT: &str = "the wall encloses no volume";
+const VESSEL: &str =
+    "the fluid is inside of it, which makes it a vessel: a body has `fluid = \"outside\"`";
+
+fn no_solid(why: &str) -> Result<()> {
+    Err(BoundaryError(why.into()))
 }
 
 /// Moments of pieces: volume, first and second moments about the origin.
@@ -63,7 +58,7 @@ impl Solid {
     ///
     /// # Errors
     /// If they enclose nothing.
-    pub fn from_pieces<'a>(pieces: impl IntoIterator<Item = &'a Drawing>) -> Result<Self, NoSolid> {
+    pub fn from_pieces<'a>(pieces: impl IntoIterator<Item = &'a Drawing>) -> Result<Self> {
         let mut sum = Moments::default();
         let mut flat = true;
         for piece in pieces {
@@ -76,10 +71,10 @@ impl Solid {
             }
         }
         if sum.volume.abs() <= 1e-12 * sum.size {
-            return Err(NoSolid::Flat);
+            no_solid(FLAT)?;
         }
         if sum.volume < 0.0 {
-            return Err(NoSolid::Vessel);
+            no_solid(VESSEL)?;
         }
         let centre = sum.first / sum.volume;
         let about = sum.second - centre * centre.transpose() * sum.volume;
@@ -101,8 +96,8 @@ pub(crate) fn winding<'a>(pieces: impl IntoIterator<Item = &'a Drawing>, x: Vect
     let from = |p: &[f64]| padded(p) - x;
     let around = |piece: &Drawing| match piece {
         Drawing::Line(line) => {
-            let turn = |[a, b]: [[f64; 2]; 2]| {
-                let [a, b] = [b, a].map(|p| from(&p));
+            let turn = |ends: [[f64; 2]; 2]| {
+                let [b, a] = ends.map(|p| from(&p));
                 a.cross(&b).z.atan2(a.dot(&b)) / TAU
             };
             line.edges().map(turn).sum::<f64>()
@@ -121,25 +116,25 @@ pub(crate) fn winding<'a>(pieces: impl IntoIterator<Item = &'a Drawing>, x: Vect
     pieces.into_iter().map(around).sum()
 }
 
-fn add_line(sum: &mut Moments, line: &Polyline) -> Result<(), NoSolid> {
+fn add_line(sum: &mut Moments, line: &Polyline) -> Result<()> {
     if !line.closed {
-        return Err(NoSolid::Open);
+        return no_solid(OPEN);
     }
     for [a, b] in line.edges() {
         // The fluid is on the left of travel, so the body is gone round clockwise.
-        let [a, b] = [b, a].map(|p| Vector3::new(p[0], p[1], 0.0));
+        let [a, b] = [b, a].map(|p| padded(&p));
         sum.add(&[a, b], 0.5 * (a.x * b.y - a.y * b.x));
     }
     Ok(())
 }
 
-fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<(), NoSolid> {
+fn add_surface(sum: &mut Moments, surface: &Surface) -> Result<()> {
     let edges = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let bits = |c: u32| surface.points[c as usize].map(|x| (x + 0.0).to_bits());
     let all = surface.triangles.iter().flat_map(edges);
     let directed: BTreeSet<_> = all.map(|e| e.map(bits)).collect();
     if directed.iter().any(|[a, b]| !directed.contains(&[*b, *a])) {
-        return Err(NoSolid::Open);
+        return no_solid(OPEN);
     }
     for triangle in &surface.triangles {
         // Anticlockwise seen from the fluid: outwards.
@@ -170,7 +165,7 @@ pub(crate) fn layer<'a>(
         match piece {
             Drawing::Line(line) => {
                 for [a, b] in line.edges() {
-                    let [a, b] = [a, b].map(|p| Vector3::new(p[0], p[1], 0.0));
+                    let [a, b] = [a, b].map(|p| padded(&p));
                     let along = b - a;
                     let normal = Vector3::new(-along.y, along.x, 0.0) * 0.5;
                     // Two points are exact for squares of the arm.
@@ -248,12 +243,12 @@ mod tests {
         open.triangles.truncate(10);
         let plate = Polyline::closed("p", vec![[0.0, 0.0], [1.0, 0.0]]);
         for (drawing, why) in [
-            (rectangle(true, true), NoSolid::Vessel),
-            (rectangle(false, false), NoSolid::Open),
-            (Drawing::Surface(open), NoSolid::Open),
-            (Drawing::Line(plate), NoSolid::Flat),
+            (rectangle(true, true), VESSEL),
+            (rectangle(false, false), OPEN),
+            (Drawing::Surface(open), OPEN),
+            (Drawing::Line(plate), FLAT),
         ] {
-            assert_eq!(Solid::from_pieces([&drawing]), Err(why));
+            assert_eq!(Solid::from_pieces([&drawing]).unwrap_err().0, why);
         }
     }
 

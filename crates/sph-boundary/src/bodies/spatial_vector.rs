@@ -3,16 +3,14 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::RigidState;
+use crate::geometry::vector;
 
 pub(crate) fn six(along: Vector3<f64>, about: Vector3<f64>) -> Vector6<f64> {
     Vector6::new(along.x, along.y, along.z, about.x, about.y, about.z)
 }
 
 pub(crate) fn parts(v: &Vector6<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    (
-        Vector3::new(v[0], v[1], v[2]),
-        Vector3::new(v[3], v[4], v[5]),
-    )
+    (v.fixed_rows::<3>(0).into(), v.fixed_rows::<3>(3).into())
 }
 
 pub(crate) fn blocks(along: Matrix3<f64>, about: Matrix3<f64>) -> Matrix6<f64> {
@@ -37,8 +35,7 @@ pub(crate) fn solve(mut a: Matrix6<f64>, mut b: Vector6<f64>, free: [bool; 6]) -
 }
 
 pub(crate) fn padded(v: &[f64]) -> Vector3<f64> {
-    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
-    Vector3::new(at(0), at(1), at(2))
+    vector::padded(v).into()
 }
 
 /// The rotation of a state; about z in two dimensions.

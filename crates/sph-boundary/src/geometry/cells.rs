@@ -37,9 +37,3 @@ pub(crate) fn listed<I: Iterator<Item = usize>>(
     }
     (starts, lists)
 }
-
-/// Number of a cell in rows along the first axis.
-pub(crate) fn index<const D: usize>(at: [usize; D], cells: [usize; D]) -> usize {
-    let all = at.into_iter().zip(cells).rev();
-    all.fold(0, |index, (at, cells)| index * cells + at)
-}

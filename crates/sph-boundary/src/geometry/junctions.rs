@@ -123,13 +123,9 @@ fn rest(line: &Polyline, cuts: &[Vec<[f64; 2]>], tolerance: f64) -> Vec<Polyline
 type Piece = (usize, Polyline);
 
 struct End {
-    piece: usize,
     place: [f64; 2],
-    /// True if the line begins there: the fluid is then on the side of rising angles.
-    begins: bool,
-    /// Of the line, from the end on, rad.
-    angle: f64,
     group: usize,
+    line: AdjacentFace,
 }
 
 /// Cuts lines at corners where another one of their group ends, and leaves out the pieces that then bound no fluid:
@@ -154,19 +150,12 @@ pub(crate) fn bounding(
         if meet.first() != Some(&n) || meet.len() < 2 {
             continue;
         }
-        let around = meet.iter().map(|m| {
-            let end = &ends.all[*m];
-            AdjacentFace {
-                piece: end.piece,
-                with: end.begins,
-                angle: end.angle,
-            }
-        });
-        let pairs = wedges(around.collect());
+        let around = meet.iter().map(|m| ends.all[*m].line);
+        let pairs = wedges(around.clone().collect());
         pairs.iter().for_each(|pair| parts.join(*pair));
         let joined: Vec<usize> = pairs.into_iter().flatten().collect();
         if meet.len() > 2 {
-            let alone = meet.iter().map(|m| ends.all[*m].piece);
+            let alone = around.map(|line| line.piece);
             let alone = alone.filter(|piece| !joined.contains(piece));
             severed.extend(alone.map(|piece| (piece, joined.clone())));
         }
@@ -226,14 +215,12 @@ impl Ends {
         let mut all = Vec::new();
         for (piece, (wall, line)) in pieces.iter().enumerate().filter(|(_, (_, l))| !l.closed) {
             let edges = [0, line.edge_count().saturating_sub(1)].map(|e| line.edge(e));
-            for (begins, [place, to]) in [(true, edges[0]), (false, [edges[1][1], edges[1][0]])] {
+            for (with, [place, to]) in [(true, edges[0]), (false, [edges[1][1], edges[1][0]])] {
                 let angle = (to[1] - place[1]).atan2(to[0] - place[0]);
                 all.push(End {
-                    piece,
                     place,
-                    begins,
-                    angle,
                     group: groups[*wall],
+                    line: AdjacentFace { piece, with, angle },
                 });
             }
         }
@@ -256,11 +243,12 @@ impl Ends {
 }
 
 /// A face at an edge, or a line at a corner.
+#[derive(Clone, Copy)]
 pub(crate) struct AdjacentFace {
     pub piece: usize,
-    /// True if the fluid is on the side of rising angles.
+    /// True if the fluid is on the side of rising angles: of lines, at the first end.
     pub with: bool,
-    /// About the edge or corner, rad.
+    /// About the edge or corner, of a line from its end on, rad.
     pub angle: f64,
 }
 

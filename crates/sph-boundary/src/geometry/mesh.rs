@@ -2,25 +2,26 @@
 //!
 //! * `elements`: nodes and elements;
 //! * `motion`: walls that move as rigid bodies;
-//! * `closest`, `grid`, `near`: elements near a place;
+//! * `closest`, `tree`, `near`: elements near a place;
 //! * `inside`: on which side of the walls a place is.
 //!
 //! The meshes come from polylines (`lines`) and from surfaces (`surface`).
 
 mod closest;
 mod elements;
-mod grid;
 mod inside;
 mod motion;
 mod near;
+mod tree;
 
 pub(crate) use closest::angle;
 pub use closest::{Closest, Feature, SeenElement};
+pub(crate) use elements::Simplices;
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
-pub(crate) use grid::Sides;
-pub use grid::{Grid, NearElement, NearRows};
-pub(crate) use inside::{RayQueries, SAME_DISTANCE, SAME_HEIGHT};
-pub(crate) use motion::{ElementMeasures, bed_of};
+pub(crate) use inside::{SAME_DISTANCE, SAME_HEIGHT};
+pub(crate) use motion::bed_of;
+pub(crate) use tree::Sides;
+pub use tree::{ElementTree, NearElement, NearRows};
 
 /// Points closer than this part of the spacing are the same place, and so much may a point lie off
 /// an edge or a plane and still be on it.

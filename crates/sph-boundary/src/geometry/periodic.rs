@@ -15,6 +15,12 @@ pub struct PeriodicBox<const D: usize = 2> {
     pub periodic: [bool; D],
 }
 
+impl<const D: usize> Default for PeriodicBox<D> {
+    fn default() -> Self {
+        Self::none()
+    }
+}
+
 impl<const D: usize> PeriodicBox<D> {
     /// No periodic direction.
     pub fn none() -> Self {

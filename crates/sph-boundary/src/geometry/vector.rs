@@ -4,6 +4,12 @@ pub(crate) use sph_core::bounds;
 
 pub(crate) type Point = [f64; 3];
 
+/// The first N of some numbers, with zeros behind them.
+#[inline(always)]
+pub(crate) fn padded<const N: usize>(numbers: &[f64]) -> [f64; N] {
+    std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
+}
+
 #[inline(always)]
 pub(crate) fn add<const D: usize>(a: [f64; D], b: [f64; D]) -> [f64; D] {
     std::array::from_fn(|k| a[k] + b[k])

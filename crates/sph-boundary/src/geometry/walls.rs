@@ -17,16 +17,16 @@ use sph_neighbours::ContactBlock;
 use crate::geometry::vector::dot;
 use crate::geometry::walls::faces::Planes;
 use crate::{
-    Element, Gammas, Grid, Mesh, NearElement, NearRows, Node, PeriodicBox, Pose, Result,
+    Element, ElementTree, Gammas, Mesh, NearElement, NearRows, Node, PeriodicBox, Pose, Result,
     SeenElement, Shells, WallSpec,
 };
 
-/// Walls cut at the particle spacing, with the grid that finds their elements.
+/// Walls cut at the particle spacing, with the tree that finds their elements.
 #[derive(Debug)]
 pub struct Walls<const D: usize> {
     pub(crate) mesh: Mesh<D>,
     /// Of the present position, made at the first request.
-    grid: OnceLock<Grid<D>>,
+    tree: OnceLock<ElementTree<D>>,
     pub(crate) planes: Planes,
     pub(crate) shells: Shells,
     pub(crate) reach: f64,
@@ -47,16 +47,16 @@ impl<const D: usize> Walls<D> {
         let free = ends.chain(mesh.free_edges.iter().flat_map(|edge| edge.nodes));
         Walls {
             shells: Shells::new(elements, mesh.nodes.len(), free),
-            grid: OnceLock::new(),
+            tree: OnceLock::new(),
             planes: Planes::default(),
             mesh,
             reach,
         }
     }
 
-    pub(crate) fn grid(&self) -> &Grid<D> {
-        self.grid
-            .get_or_init(|| Grid::build(&self.mesh, self.reach))
+    pub(crate) fn tree(&self) -> &ElementTree<D> {
+        self.tree
+            .get_or_init(|| ElementTree::build(&self.mesh, self.reach))
     }
 }
 
@@ -229,7 +229,7 @@ pub trait WallMesh<const D: usize>:
     /// Distance of the nearest wall, m, and its index, if nearer than `within`.
     fn nearest(&self, point: &Vect<D>, within: f64) -> Option<(f64, usize)> {
         let (walls, x) = (self.walls(), (*point).into());
-        let near = walls.grid().near(&walls.mesh, x, within.min(walls.reach));
+        let near = walls.tree().near(&walls.mesh, x, within.min(walls.reach));
         let distance2 = |near| {
             let offset = walls.mesh.closest(x, near).offset;
             (dot(offset, offset), near)

@@ -281,10 +281,6 @@ mod tests {
         let sine = Course::sine(0.4, 1.1, 0.3, 0.6);
         check(
             &RigidMotion::<2> {
-                translations: vec![Translation {
-                    along: [0.3, -0.2],
-                    course: Course::Steady { speed: 1.0 },
-                }],
                 rotation: Some(Rotation {
                     centre: [0.1, 0.4],
                     axis: [0.0; 3],
@@ -292,7 +288,7 @@ mod tests {
                 }),
                 start: 0.5,
                 stop: 2.0,
-                ..RigidMotion::default()
+                ..RigidMotion::steady([0.3, -0.2])
             },
             [0.9, -0.3],
         );

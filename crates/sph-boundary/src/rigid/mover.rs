@@ -99,7 +99,7 @@ impl<const D: usize> Load<D> {
 /// N = S k δ, δ the missing distance, with e² of that while they part (Walton & Braun 1986), and rubs with
 /// min(μ N, 2 S √(k m / ΣS) u_t). A step is taken in parts that resolve the fastest swing of a body on its
 /// contacts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
     /// Mass m, kg (per metre of depth in two dimensions); of two bodies m₁m₂/(m₁ + m₂) counts.
     pub mass: f64,

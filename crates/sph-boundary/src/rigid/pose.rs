@@ -1,5 +1,7 @@
 //! Rigid displacement of a wall from its reference position.
 
+use crate::geometry::vector::{cross, padded};
+
 /// x = c + R (X − c) + b, with X the reference position, lifted by the wall's [`Bend`](crate::Bend) at its moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<const D: usize = 2> {
@@ -41,9 +43,8 @@ impl<const D: usize> Pose<D> {
             centre,
             ..Self::default()
         };
-        for k in 0..D {
+        for (k, unit) in identity::<D>().into_iter().enumerate() {
             // The k-th column is the image of the k-th unit vector.
-            let unit: [f64; D] = std::array::from_fn(|i| f64::from(u8::from(i == k)));
             let cross = swept(e, unit);
             for i in 0..D {
                 let along = if D == 2 { 0.0 } else { e[i] * e[k] };
@@ -80,13 +81,7 @@ impl<const D: usize> Pose<D> {
 
 /// e × v.
 pub(crate) fn swept<const D: usize>(e: [f64; 3], v: [f64; D]) -> [f64; D] {
-    let at = |k: usize| v.get(k).copied().unwrap_or(0.0);
-    let cross = [
-        e[1] * at(2) - e[2] * at(1),
-        e[2] * at(0) - e[0] * at(2),
-        e[0] * at(1) - e[1] * at(0),
-    ];
-    std::array::from_fn(|k| cross[k])
+    padded(&cross(e, padded(&v)))
 }
 
 #[cfg(test)]

@@ -103,17 +103,23 @@ impl<const D: usize> RigidState<D> {
     /// All its numbers, for files: translation, rotation row by row, centres, velocity, acceleration, angular velocity and
     /// acceleration, rate, error of the expected change.
     pub fn numbers(&self) -> Vec<f64> {
-        let mut all = self.pose.translation.to_vec();
-        all.extend(self.pose.rotation.iter().flatten());
-        all.extend(self.pose.centre);
-        all.extend(self.centre);
-        all.extend(self.velocity.iter());
-        all.extend(self.acceleration.iter());
-        all.extend(self.angular_velocity);
-        all.extend(self.angular_acceleration);
-        all.extend(self.rate);
-        all.extend(self.missed);
-        all
+        let mut state = *self;
+        state.parts().concat()
+    }
+
+    fn parts(&mut self) -> [&mut [f64]; 10] {
+        [
+            &mut self.pose.translation,
+            self.pose.rotation.as_flattened_mut(),
+            &mut self.pose.centre,
+            &mut self.centre,
+            self.velocity.as_mut_slice(),
+            self.acceleration.as_mut_slice(),
+            &mut self.angular_velocity,
+            &mut self.angular_acceleration,
+            &mut self.rate,
+            &mut self.missed,
+        ]
     }
 
     /// Count of the [`numbers`](Self::numbers) of a state.
@@ -124,19 +130,11 @@ impl<const D: usize> RigidState<D> {
         if numbers.len() != Self::NUMBERS || !numbers.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let mut rest = numbers.iter().copied();
-        let mut next = || rest.next().unwrap_or_default();
         let mut state = Self::default();
-        state.pose.translation = std::array::from_fn(|_| next());
-        state.pose.rotation = std::array::from_fn(|_| std::array::from_fn(|_| next()));
-        state.pose.centre = std::array::from_fn(|_| next());
-        state.centre = std::array::from_fn(|_| next());
-        state.velocity = Vect::from_fn(|_, _| next());
-        state.acceleration = Vect::from_fn(|_, _| next());
-        state.angular_velocity = std::array::from_fn(|_| next());
-        state.angular_acceleration = std::array::from_fn(|_| next());
-        state.rate = std::array::from_fn(|_| next());
-        state.missed = std::array::from_fn(|_| next());
+        let places = state.parts().into_iter().flatten();
+        places
+            .zip(numbers)
+            .for_each(|(place, number)| *place = *number);
         Some(state)
     }
 }

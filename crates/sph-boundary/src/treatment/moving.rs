@@ -5,8 +5,8 @@ use sph_core::bed::Bed;
 use sph_neighbours::{DepthGauge, FreeBody, WallForce};
 
 use crate::treatment::contract::{is_piece, pieces};
-use crate::treatment::outline::Outline;
-use crate::{BoundaryError, Load, Mover, Result, RigidState, WallMesh, WallSpec, WallStates};
+use crate::treatment::outline::{Outline, Placement, poses};
+use crate::{BoundaryError, Load, Mover, Pose, Result, RigidState, WallMesh, WallSpec, WallStates};
 
 /// The longest way of any point of a wall within a step, over the spacing: farther, it would leap over particles.
 const MOST_WAY: f64 = 0.5;
@@ -57,7 +57,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// # Errors
     /// A bed that rises to the top of the walls that stand in it.
     pub fn grow(&mut self, beds: Vec<Bed>, dt: f64) -> Result<()> {
-        for (bed, mut grown) in self.beds[0].iter_mut().zip(beds) {
+        for (bed, mut grown) in self.now.beds.iter_mut().zip(beds) {
             let both = grown.lift.iter_mut().zip(&grown.rate);
             both.for_each(|(lift, rate)| *lift += dt * rate);
             let highest = grown.lift.iter().fold(0.0, |a: f64, b| a.max(*b));
@@ -91,7 +91,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     fn compare(&self, states: &mut [RigidState<D>], bodies: &[FreeBody<D>], dt: f64) {
         for (k, _) in self.movers() {
             let mut state = states[k];
-            state.rate = state.rate_from(&self.states[k], dt);
+            state.rate = state.rate_from(&self.now.states[k], dt);
             if let Some(body) = bodies.iter().find(|body| body.is(k)) {
                 let missed = |i: usize| state.rate[i] * dt - body.expected[i];
                 state.missed = std::array::from_fn(missed);
@@ -145,7 +145,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     pub fn depth_gauges(&self) -> Vec<(usize, DepthGauge<D>)> {
         let all = self.movers();
-        all.filter_map(|(k, mover)| Some((k, mover.looks(&self.states[k])?)))
+        all.filter_map(|(k, mover)| Some((k, mover.looks(&self.now.states[k])?)))
             .collect()
     }
 
@@ -156,20 +156,20 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     pub fn numbers(&self) -> WallStates {
-        let all = |states: &[RigidState<D>], beds: &[Bed]| -> Vec<f64> {
-            let own = self.movers().flat_map(|(k, _)| states[k].numbers());
-            own.chain(beds.iter().flat_map(Bed::numbers)).collect()
+        let all = |at: &Placement<D>| -> Vec<f64> {
+            let own = self.movers().flat_map(|(k, _)| at.states[k].numbers());
+            own.chain(at.beds.iter().flat_map(Bed::numbers)).collect()
         };
         WallStates {
-            now: all(&self.states, &self.beds[0]),
-            listed: Some(all(&self.listed, &self.beds[1])),
+            now: all(&self.now),
+            listed: Some(all(&self.listed)),
         }
     }
 
     /// Puts walls back where they were at a time; returns whether anything moved.
     pub fn put_back(&mut self, numbers: &WallStates, time: f64) -> Result<bool> {
         let given = |numbers: &[f64]| {
-            let mut states = self.states_at(time, &self.states);
+            let mut states = self.states_at(time, &self.now.states);
             let own = self.movers().count() * RigidState::<D>::NUMBERS;
             let (own, levels) = numbers.split_at(own.min(numbers.len()));
             let mut parts = own.chunks(RigidState::<D>::NUMBERS);
@@ -179,32 +179,31 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 let state = part.ok_or_else(|| unsound(k))?;
                 states[pieces(&self.specs, k)].fill(state);
             }
-            let mut beds = self.beds[0].clone();
+            let mut beds = self.now.beds.clone();
             let mut rest = levels;
             for bed in &mut beds {
                 let wall = bed.walls[0] as usize;
                 rest = bed.put(rest).ok_or_else(|| unsound(wall))?;
             }
-            Ok::<_, BoundaryError>((states, beds))
+            Ok::<_, BoundaryError>(Placement { states, beds })
         };
-        let (states, beds) = given(&numbers.now)?;
+        let now = given(&numbers.now)?;
         let listed = numbers.listed.as_ref().map(|n| given(n)).transpose()?;
-        if let Some((listed, beds)) = listed {
-            (self.listed, self.beds[1]) = (listed, beds);
+        if let Some(listed) = listed {
+            self.listed = listed;
             self.put_back = true;
         }
-        self.beds[0] = beds;
-        self.put(states, time)
+        self.now.beds = now.beds;
+        self.put(now.states, time)
     }
 
     fn put(&mut self, states: Vec<RigidState<D>>, time: f64) -> Result<bool> {
-        let poses: Vec<_> = states.iter().map(|s| s.pose).collect();
-        let moved = !self.beds[0].is_empty() || !self.states.iter().map(|s| &s.pose).eq(&poses);
+        let next = poses(&states);
+        let moved = !self.now.beds.is_empty() || poses(&self.now.states) != next;
         if moved {
-            self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
-            self.mesh.move_walls(&poses)?;
+            place(&mut self.mesh, &next, &self.now.beds)?;
         }
-        self.states = states;
+        self.now.states = states;
         self.bodies = self.bodies_at(time);
         Ok(moved)
     }
@@ -212,7 +211,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// The walls that forces move, as they are at a time.
     pub fn bodies_at(&self, time: f64) -> Vec<FreeBody<D>> {
         let body = |(k, mover): (usize, &dyn Mover<D>)| {
-            let (state, walls) = (&self.states[k], pieces(&self.specs, k));
+            let (state, walls) = (&self.now.states[k], pieces(&self.specs, k));
             let mobility = mover.mobility(state, time)?;
             Some(FreeBody {
                 walls: walls.start as u32..walls.end as u32,
@@ -230,24 +229,28 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     /// Asks the mesh something as if the walls were where they were at the last build of the lists, at a time.
     pub fn at_lists<R>(&mut self, time: f64, ask: impl FnOnce(&M) -> R) -> Result<R> {
         if !std::mem::take(&mut self.put_back) {
-            self.listed.clone_from(&self.states);
-            let [now, listed] = &mut self.beds;
-            listed.clone_from(now);
+            self.listed.clone_from(&self.now);
         }
         if !self.moves() {
             return Ok(ask(&self.mesh));
         }
-        let states = self.states_at(time, &self.listed);
-        let poses = |states: &[RigidState<D>]| states.iter().map(|s| s.pose).collect::<Vec<_>>();
-        let (there, here) = (poses(&states), poses(&self.states));
+        let states = self.states_at(time, &self.listed.states);
+        let (there, here) = (poses(&states), poses(&self.now.states));
         if there == here {
             return Ok(ask(&self.mesh));
         }
-        self.beds[1].clone_into(&mut self.mesh.walls_mut().mesh.beds);
-        self.mesh.move_walls(&there)?;
+        place(&mut self.mesh, &there, &self.listed.beds)?;
         let answer = ask(&self.mesh);
-        self.beds[0].clone_into(&mut self.mesh.walls_mut().mesh.beds);
-        self.mesh.move_walls(&here)?;
+        place(&mut self.mesh, &here, &self.now.beds)?;
         Ok(answer)
     }
+}
+
+fn place<const D: usize, M: WallMesh<D>>(
+    mesh: &mut M,
+    poses: &[Pose<D>],
+    beds: &[Bed],
+) -> Result<()> {
+    beds.clone_into(&mut mesh.walls_mut().mesh.beds);
+    mesh.move_walls(poses)
 }

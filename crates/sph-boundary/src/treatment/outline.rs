@@ -25,12 +25,10 @@ const FARTHEST: f64 = 2.0;
 pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub mesh: M,
     pub support: f64,
-    pub states: Vec<RigidState<D>>,
-    /// Those of walls with movers, at the last build of the lists.
-    pub listed: Vec<RigidState<D>>,
-    /// The beds that walls follow: at present, and at the last build of the lists.
-    pub beds: [Vec<Bed>; 2],
-    /// True if `listed` are those of a build in an earlier process, not compared yet.
+    pub now: Placement<D>,
+    /// That of the last build of the lists.
+    pub listed: Placement<D>,
+    /// True if `listed` is that of a build in an earlier process, not compared yet.
     pub put_back: bool,
     /// Walls with the same number move together.
     pub groups: Vec<usize>,
@@ -46,6 +44,13 @@ pub(crate) struct Outline<const D: usize, M: WallMesh<D>> {
     pub moved: u64,
     cover: Cover<D>,
     pub specs: Vec<WallSpec<D>>,
+}
+
+/// States of all walls, and the beds that some of them follow.
+#[derive(Clone, Debug)]
+pub(crate) struct Placement<const D: usize> {
+    pub states: Vec<RigidState<D>>,
+    pub beds: Vec<Bed>,
 }
 
 impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
@@ -79,13 +84,15 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             None => spec.motion.state(0.0),
         };
         let mesh = M::build(setup.walls, size, reach, &domain)?;
-        let laid = mesh.walls().mesh.beds.clone();
+        let now = Placement {
+            states: setup.walls.iter().map(start).collect(),
+            beds: mesh.walls().mesh.beds.clone(),
+        };
         let mut outline = Outline {
             mesh,
             support,
-            states: setup.walls.iter().map(start).collect(),
-            listed: Vec::new(),
-            beds: [laid.clone(), laid],
+            listed: now.clone(),
+            now,
             put_back: false,
             groups: groups(setup.walls),
             gaps: BTreeMap::new(),
@@ -98,11 +105,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             cover: Cover::default(),
             specs: setup.walls.to_vec(),
         };
-        let poses: Vec<_> = outline.states.iter().map(|s| s.pose).collect();
+        let poses = poses(&outline.now.states);
         if poses.iter().any(|pose| *pose != Pose::default()) {
             outline.mesh.move_walls(&poses)?;
         }
-        outline.listed = outline.states.clone();
         outline.gaps = outline.drawn_gaps();
         outline.bodies = outline.bodies_at(0.0);
         Ok(outline)
@@ -114,7 +120,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Velocity and acceleration of the wall: its motion and the velocity of its surface.
     pub fn movement(&self, wall: usize, point: &Vect<D>) -> Movement<D> {
-        self.movement_in(&self.states[wall], wall, point)
+        self.movement_in(&self.now.states[wall], wall, point)
     }
 
     /// The same of a wall in another state.
@@ -124,7 +130,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let moment = state.pose.moment;
         spec.motion
             .add_bending(&mut movement, (*point).into(), moment);
-        if let Some(bed) = bed_of(&self.beds[0], wall) {
+        if let Some(bed) = bed_of(&self.now.beds, wall) {
             movement.velocity[D - 1] += bed.rate_of(&(*point).into());
         }
         movement.velocity += spec.surface_velocity;
@@ -132,9 +138,9 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     }
 
     pub fn maps(&self) -> Vec<impl Fn([f64; D]) -> [f64; D] + use<'_, D, M>> {
-        let walls = self.specs.iter().zip(&self.states).enumerate();
+        let walls = self.specs.iter().zip(&self.now.states).enumerate();
         let map = |(k, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
-            spec.motion.map(&state.pose, bed_of(&self.beds[0], k))
+            spec.motion.map(&state.pose, bed_of(&self.now.beds, k))
         };
         walls.map(map).collect()
     }
@@ -164,7 +170,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             return Vec::new();
         }
         let none = [f64::INFINITY, f64::NEG_INFINITY].map(Vect::<D>::repeat);
-        let mut boxes = vec![none; self.states.len()];
+        let mut boxes = vec![none; self.now.states.len()];
         if self.domain.periodic.contains(&true) {
             for node in self.mesh.nodes() {
                 let ([low, high], place) = (&mut boxes[node.wall], node.position.into());
@@ -185,7 +191,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             offset: state.pose.map()([0.0; D]).into(),
             round: round(all),
         };
-        self.states.iter().zip(boxes).map(frame).collect()
+        self.now.states.iter().zip(boxes).map(frame).collect()
     }
 
     /// A place of a wall as others see it, in the box, and the movement of the wall there.
@@ -208,7 +214,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
 
     /// Forces of the lines of movers on their walls.
     pub fn pulls(&self) -> Vec<LinePull<D>> {
-        let walls = self.specs.iter().zip(&self.states).enumerate();
+        let walls = self.specs.iter().zip(&self.now.states).enumerate();
         let of_wall = |(wall, (spec, state)): (usize, (&WallSpec<D>, &RigidState<D>))| {
             let pulls = spec.mover.as_ref().map(|m| m.pulls(state));
             let wall = wall as u32;
@@ -227,7 +233,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         walls.frames = self.frames();
         walls.pulls = self.pulls();
         walls.bodies.clone_from(&self.bodies);
-        walls.beds.clone_from(&self.beds[0]);
+        walls.beds.clone_from(&self.now.beds);
     }
 
     pub fn slips(&self) -> bool {
@@ -309,6 +315,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         }
         elements
     }
+}
+
+pub(crate) fn poses<const D: usize>(states: &[RigidState<D>]) -> Vec<Pose<D>> {
+    states.iter().map(|state| state.pose).collect()
 }
 
 /// Share of a particle's kernel that may be behind a wall.

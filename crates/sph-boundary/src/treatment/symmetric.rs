@@ -76,7 +76,7 @@ impl<const D: usize, M: WallMesh<D>> Scales<D, M> {
             for part in slopes.clone() {
                 let particle = part.particle as usize;
                 let place = nearest_image(world, outline, &positions[particle], part.wall);
-                let state = &outline.states[part.wall as usize];
+                let state = &outline.now.states[part.wall as usize];
                 rate[particle] -= part.slope.dot(&state.movement(place.into()).velocity);
             }
             world.free.put(fields::SCALE_RATE, rate)?;
@@ -98,7 +98,7 @@ fn nearest_image<const D: usize, M: WallMesh<D>>(
     if !world.domain.periodic.contains(&true) {
         return *x;
     }
-    let centre = outline.states[wall as usize].place();
+    let centre = outline.now.states[wall as usize].place();
     centre + world.domain.nearest(x - centre)
 }
 

@@ -20,38 +20,23 @@ const SINKS: f64 = 0.025;
 /// stops a fortieth of the speed that the body's own contacts stop.
 const OF_STIFFEST: f64 = 1.0 / 1600.0;
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Law {
-    /// k, Pa/m.
-    stiffness: f64,
-    /// Mass m that swings on the contact, kg.
-    mass: f64,
-    /// Share of the force that is left while the walls part: e².
-    left: f64,
-    friction: f64,
-}
-
-impl Law {
-    /// Between two walls, one of which may be fixed, with at least `least` N/m on the smaller face.
-    fn new(pair: [Option<Touch>; 2], least: f64) -> Self {
-        let law = |t: Touch| Law {
-            stiffness: t.stiffness.max(least / t.face),
-            mass: t.mass,
-            left: t.restitution * t.restitution,
-            friction: t.friction,
+impl Touch {
+    /// The law of two walls, one of which may be fixed, with at least `least` N/m on the smaller face.
+    fn between(pair: [Option<Touch>; 2], least: f64) -> Self {
+        let both = |a: Touch, b: Touch| Touch {
+            mass: a.mass * b.mass / (a.mass + b.mass),
+            face: a.face.min(b.face),
+            stiffness: a.stiffness.min(b.stiffness),
+            restitution: a.restitution.min(b.restitution),
+            friction: (a.friction * b.friction).sqrt(),
+            ..a
         };
-        match pair {
-            [Some(a), Some(b)] => law(Touch {
-                mass: a.mass * b.mass / (a.mass + b.mass),
-                face: a.face.min(b.face),
-                stiffness: a.stiffness.min(b.stiffness),
-                restitution: a.restitution.min(b.restitution),
-                friction: (a.friction * b.friction).sqrt(),
-                ..a
-            }),
-            [Some(one), None] | [None, Some(one)] => law(one),
-            [None, None] => Law::default(),
-        }
+        let stiff = |law: Touch| Touch {
+            stiffness: law.stiffness.max(least / law.face),
+            ..law
+        };
+        let law = pair.into_iter().flatten().reduce(both);
+        law.map(stiff).unwrap_or_default()
     }
 
     /// The force on the first of a pair, N, from an area that is one of `all` at which the pair touches; `missing` m of
@@ -65,7 +50,10 @@ impl Law {
     ) -> Vect<D> {
         let critical = 2.0 * (self.stiffness * self.mass / all).sqrt();
         let parting = velocity.dot(away);
-        let left = if parting > 0.0 { self.left } else { 1.0 };
+        let left = match parting > 0.0 {
+            true => self.restitution * self.restitution,
+            false => 1.0,
+        };
         let push = area * left * self.stiffness * missing;
         let along = velocity - away * parting;
         let speed = along.norm();
@@ -80,7 +68,7 @@ impl Law {
 pub(crate) struct Touching<const D: usize> {
     near: Vec<SurfacePair<D>>,
     /// Of the pairs, and the number of that of each piece.
-    laws: Vec<Law>,
+    laws: Vec<Touch>,
     law_of: Vec<usize>,
     /// Distances at which the pairs begin to push, m.
     gaps: Vec<f64>,
@@ -136,7 +124,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             return None;
         }
         let mut near = self.near_pairs(&touches);
-        let velocities = self.closing(&self.states, &near);
+        let velocities = self.closing(&self.now.states, &near);
         let mut velocity = velocities.iter();
         // Twice the way of the present velocity, and a tenth of the spacing for accelerations.
         near.retain(|n| {
@@ -157,7 +145,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         let number = |n: &SurfacePair<D>| {
             *pairs.entry(ordered(n.pair)).or_insert_with(|| {
                 gaps.push(self.gap(n.pair));
-                laws.push(Law::new(n.pair.map(|k| touches[k]), least));
+                laws.push(Touch::between(n.pair.map(|k| touches[k]), least));
                 laws.len() - 1
             })
         };
@@ -167,7 +155,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             let stiffness = SHARE * n.area * laws[*law].stiffness;
             for (k, image) in n.pair.into_iter().zip([Vect::zeros(), n.image]) {
                 let Some(touch) = touches[k] else { continue };
-                let arm = n.place - image - self.states[k].place();
+                let arm = n.place - image - self.now.states[k].place();
                 // (a − b)² ≤ 2 a² + 2 b².
                 let inverse = 1.0 / touch.mass + arm.norm_squared() / touch.inertia;
                 swings[k] += 2.0 * stiffness * inverse;
@@ -202,13 +190,13 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
         [time, dt]: [f64; 2],
     ) -> Result<Vec<RigidState<D>>> {
         let Some(mut touching) = self.touching(gravity, dt) else {
-            return self.after(&self.states, loads, [time, dt]);
+            return self.after(&self.now.states, loads, [time, dt]);
         };
         let parts = touching.parts(dt);
         let part = dt / f64::from(parts);
         let [mut forces, mut sums] = [(); 2].map(|()| vec![WallForce::zero(); loads.len()]);
         let heights: Vec<f64> = touching.near.iter().map(|n| n.height).collect();
-        let mut states = self.states.clone();
+        let mut states = self.now.states.clone();
         let mut velocity = self.closing(&states, &touching.near);
         for n in 0..parts {
             touching.forces(&velocity, &mut forces);
@@ -238,7 +226,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
             load.contact_force = sum.force * mean;
             load.contact_moment = sum.moment.map(|m| m * mean);
         }
-        let mut whole = self.after(&self.states, loads, [time, dt])?;
+        let mut whole = self.after(&self.now.states, loads, [time, dt])?;
         for (k, state) in whole.iter_mut().enumerate() {
             if self.specs[k].mover.is_some() {
                 state.pose = states[k].pose;
@@ -261,14 +249,12 @@ mod tests {
         for (restitution, mass) in [(1.0, 1.0), (0.5, 1.0), (0.2, 1e4), (0.0, 1e4)] {
             let touch = Touch {
                 mass: 1.0,
-                inertia: 1.0,
                 face: 1.0,
                 stiffness: 1.0,
                 restitution,
-                friction: 0.0,
-                dry: false,
+                ..Touch::default()
             };
-            let law = Law::new([Some(touch), None], 0.0);
+            let law = Touch::between([Some(touch), None], 0.0);
             let (mut x, mut v, dt) = (0.0, Vect::<2>::new(-1.0, 0.0), 1e-3 * f64::sqrt(mass));
             for _ in 0..10_000 {
                 if x < 0.0 {

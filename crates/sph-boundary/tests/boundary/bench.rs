@@ -128,22 +128,6 @@ impl<const D: usize> Bench<D> {
         self.wall.geometry(&mut self.world).expect("geometry");
     }
 
-    /// [`Bench::refresh`], and the marks follow their particles if those are sorted anew.
-    pub fn refresh_sorting(&mut self, marks: &mut [bool]) {
-        let before = self.positions().to_vec();
-        self.refresh();
-        if before != self.positions() {
-            let mut order: Vec<usize> = (0..marks.len()).collect();
-            let key = |x: &Vect<D>| x.map(f64::to_bits).data.0;
-            order.sort_by_key(|&i| key(&before[i]));
-            let old = marks.to_vec();
-            for (i, x) in self.positions().iter().enumerate() {
-                let found = order.binary_search_by_key(&key(x), |&k| key(&before[k]));
-                marks[i] = old[order[found.expect("the same particles")]];
-            }
-        }
-    }
-
     /// The walls at a time, geometry fresh.
     pub fn move_to(&mut self, time: f64) {
         self.world.time = time;
@@ -192,6 +176,15 @@ impl<const D: usize> Bench<D> {
     }
 }
 
+/// The largest differences of γ and of ∇γ between two benches with the same particles.
+pub fn largest<const D: usize>(a: &Bench<D>, b: &Bench<D>) -> [f64; 2] {
+    assert_eq!(a.positions(), b.positions());
+    let pairs = a.gamma().iter().zip(b.gamma());
+    let gamma = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let gradients = (0..a.positions().len()).map(|i| (a.gradient(i) - b.gradient(i)).norm());
+    [gamma, gradients.fold(0.0, f64::max)]
+}
+
 /// Rows k = 1 … `rows` over a flat wall at y = 0 that is periodic in x; h = 1, δr = 1/2.
 pub fn over_a_flat_wall(name: &str, rows: usize, offset: f64) -> Bench<2> {
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [8.0, 0.0]]);
@@ -203,7 +196,7 @@ pub fn over_a_flat_wall(name: &str, rows: usize, offset: f64) -> Bench<2> {
 }
 
 /// Numbers in [0, 1) that are the same at every run.
-pub struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
@@ -220,7 +213,13 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
+
     pub fn point<const D: usize>(&mut self, low: f64, high: f64) -> Vect<D> {
         Vect::from_fn(|_, _| self.between(low, high))
+    }
+
+    /// A place in a box.
+    pub fn within(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.between(low[k], high[k]))
     }
 }

@@ -1,8 +1,17 @@
 //! Geometry of walls: what is accepted, what is refused and with which words.
 
-use sph_boundary::{BoundaryError, Grid, Mesh, PeriodicBox, Polyline, Pose, WallEnd, thin_plate};
+use sph_boundary::{
+    BoundaryError, ElementTree, Mesh, PeriodicBox, Polyline, Pose, WallEnd, thin_plate,
+};
+
+use crate::close;
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+
+/// A rectangle with the fluid outside.
+fn block(name: &str, [x, y]: [f64; 2], [u, v]: [f64; 2]) -> Polyline {
+    Polyline::closed(name, vec![[x, y], [x, v], [u, v], [u, y]])
+}
 
 fn channel() -> PeriodicBox {
     PeriodicBox {
@@ -25,10 +34,8 @@ fn a_square_is_cut_into_equal_segments() {
     let mesh = build(&[Polyline::closed("tank", SQUARE.to_vec())]).unwrap();
     assert_eq!((mesh.elements.len(), mesh.nodes.len()), (16, 16));
     for (s, segment) in mesh.elements.iter().enumerate() {
-        assert_eq!(
-            (segment.measure, segment.face, segment.wall),
-            (0.5, s / 4, 0)
-        );
+        assert_eq!(segment.measure, 0.5);
+        assert_eq!((segment.face, segment.wall), (s / 4, 0));
         assert_eq!(segment.nodes, [s, (s + 1) % 16]);
     }
     assert_eq!(mesh.elements[5].normal, [-1.0, 0.0], "into the square");
@@ -47,10 +54,8 @@ fn a_wall_along_a_period_closes_onto_itself() {
     assert_eq!((mesh.elements.len(), mesh.nodes.len()), (8, 8));
     assert!(mesh.free_ends.is_empty());
     let last = mesh.elements[7];
-    assert_eq!(
-        (last.nodes, last.images, last.centre),
-        ([7, 0], [[0, 0], [1, 0]], [3.75, 0.0])
-    );
+    assert_eq!((last.nodes, last.images), ([7, 0], [[0, 0], [1, 0]]));
+    assert_eq!(last.centre, [3.75, 0.0]);
     assert!(mesh.nodes.iter().all(|v| v.theta == 0.5));
 }
 
@@ -58,10 +63,7 @@ fn a_wall_along_a_period_closes_onto_itself() {
 fn a_slope_across_the_seam_gets_its_angle_from_the_other_side() {
     let roof = Polyline::open("roof", vec![[0.0, 0.0], [2.0, 2.0], [4.0, 0.0]]);
     let mesh = Mesh::<2>::build(&[roof], 0.5, &channel()).unwrap();
-    assert!(
-        (mesh.nodes[0].theta - 0.25).abs() < 1e-15,
-        "a valley at the seam"
-    );
+    close(mesh.nodes[0].theta, 0.25, 1e-15, "a valley at the seam");
 }
 
 #[test]
@@ -73,9 +75,8 @@ fn open_walls_are_joined_end_to_end() {
     assert!(mesh.free_ends.is_empty());
     assert_eq!(mesh.elements[15].nodes, [15, 0]);
     let opposed = message(&[floor.clone(), rest.reversed()]);
-    assert!(
-        opposed.starts_with("the first end of wall `floor` meets the first end of wall `rest`")
-    );
+    let why = "the first end of wall `floor` meets the first end of wall `rest`";
+    assert!(opposed.starts_with(why), "{opposed}");
     let spur = Polyline::open("spur", vec![[2.0, 0.0], [3.0, 0.0]]);
     assert!(message(&[floor, rest, spur]).starts_with("3 ends of walls meet at (2, 0)"));
 }
@@ -99,18 +100,20 @@ fn free_ends_are_refused_near_particles_only() {
 #[test]
 fn degenerate_walls_are_named() {
     let open = |points: &[[f64; 2]]| [Polyline::open("gate", points.to_vec())];
-    assert_eq!(
-        message(&open(&[])),
-        "wall `gate` has 0 point(s), at least two are needed"
-    );
-    assert_eq!(
-        message(&open(&[[0.0, 0.0], [1.0, f64::NAN]])),
-        "wall `gate`: point 1 has a coordinate that is not finite"
-    );
-    assert_eq!(
-        message(&open(&[[0.0, 0.0], [1.0, 0.5], [1.0, 0.5]])),
-        "wall `gate`: edge 1 has zero length, points 1 and 2 are both at (1, 0.5)"
-    );
+    let refused: [(&[[f64; 2]], _); 3] = [
+        (&[], " has 0 point(s), at least two are needed"),
+        (
+            &[[0.0, 0.0], [1.0, f64::NAN]],
+            ": point 1 has a coordinate that is not finite",
+        ),
+        (
+            &[[0.0, 0.0], [1.0, 0.5], [1.0, 0.5]],
+            ": edge 1 has zero length, points 1 and 2 are both at (1, 0.5)",
+        ),
+    ];
+    for (points, why) in refused {
+        assert_eq!(message(&open(points)), format!("wall `gate`{why}"));
+    }
     let repeated = Polyline::closed("gate", vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
     assert!(message(&[repeated]).contains("points 3 and 0"));
     assert!(Mesh::<2>::build(&[], 0.0, &PeriodicBox::none()).is_err());
@@ -126,23 +129,15 @@ fn crossings_are_named_and_touching_is_allowed() {
         "edge 0 of wall `bow` crosses edge 2 of wall `bow` near (0.5, 0.5)"
     );
     let pipe = Polyline::open("pipe", vec![[1.0, 1.0], [3.0, 1.0]]);
-    let crossing = message(&[tank.clone(), pipe]);
     // Told of the first in the order given.
     assert_eq!(
-        crossing,
+        message(&[tank.clone(), pipe]),
         "edge 1 of wall `tank` crosses edge 0 of wall `pipe` near (2, 1)"
     );
-    let block = Polyline::closed(
-        "block",
-        vec![[0.5, 0.0], [0.5, 1.0], [1.5, 1.0], [1.5, 0.0]],
-    );
-    build(&[tank, block]).unwrap();
+    build(&[tank, block("block", [0.5, 0.0], [1.5, 1.0])]).unwrap();
     // Across the periodic side.
-    let post = Polyline::closed("post", vec![[3.5, 0.5], [3.5, 1.0], [4.5, 1.0], [4.5, 0.5]]);
-    let other = Polyline::closed(
-        "other",
-        vec![[0.2, 0.7], [0.2, 1.5], [0.8, 1.5], [0.8, 0.7]],
-    );
+    let post = block("post", [3.5, 0.5], [4.5, 1.0]);
+    let other = block("other", [0.2, 0.7], [0.8, 1.5]);
     build(&[post.clone(), other.clone()]).unwrap();
     let across = Mesh::<2>::build(&[post, other], 0.5, &channel());
     let refused = across.expect_err("they cross").to_string();
@@ -155,16 +150,10 @@ fn a_closed_wall_without_area_must_be_a_plate() {
     let mesh = build(&[plate]).unwrap();
     assert_eq!(mesh.nodes[0].theta, 1.0);
     // Two triangles of opposite orientation that meet in a point.
-    let bow = [
-        [-2.0, -1.0],
-        [0.0, 0.0],
-        [2.0, 1.0],
-        [2.0, -1.0],
-        [0.0, 0.0],
-        [-2.0, 1.0],
-    ];
+    let mut bow = vec![[-2.0, -1.0], [0.0, 0.0], [2.0, 1.0]];
+    bow.extend([[2.0, -1.0], [0.0, 0.0], [-2.0, 1.0]]);
     assert_eq!(
-        message(&[Polyline::closed("bow", bow.to_vec())]),
+        message(&[Polyline::closed("bow", bow)]),
         "wall `bow` is closed but encloses no area, and edge 0 is not retraced in the opposite direction as it would be \
          on a plate of zero thickness"
     );
@@ -186,9 +175,9 @@ fn short_edges_are_remarked_upon() {
 fn the_grid_finds_what_a_search_over_everything_finds() {
     let domain = channel();
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [2.0, 0.3], [4.0, 0.0]]);
-    let post = Polyline::closed("post", vec![[3.8, 0.8], [3.8, 1.2], [4.3, 1.2], [4.3, 0.8]]);
+    let post = block("post", [3.8, 0.8], [4.3, 1.2]);
     let mesh = Mesh::<2>::build(&[floor, post], 0.2, &domain).unwrap();
-    let grid = Grid::build(&mesh, 0.6);
+    let tree = ElementTree::build(&mesh, 0.6);
     let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
         let t = [b[0] - a[0], b[1] - a[1]];
         let part = ((p[0] - a[0]) * t[0] + (p[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
@@ -197,68 +186,61 @@ fn the_grid_finds_what_a_search_over_everything_finds() {
     };
     for i in 0..400 {
         let point = [0.01 * f64::from(i), 0.05 + 0.0371 * f64::from(i % 50)];
-        let found: Vec<(usize, i8)> = grid
-            .near(&mesh, point, 0.5)
-            .map(|near| (near.index(), near.image[0]))
-            .collect();
+        let found = tree.near(&mesh, point, 0.5);
+        let found: Vec<_> = found.map(|near| (near.index(), near.image[0])).collect();
         let mut expected = Vec::new();
         for s in 0..mesh.elements.len() {
             for image in -2..=2 {
-                let ends = mesh
-                    .corners(s)
-                    .map(|[x, y]| [x + 4.0 * f64::from(image), y]);
-                if distance(point, ends) < 0.5 {
+                let moved = |[x, y]: [f64; 2]| [x + 4.0 * f64::from(image), y];
+                if distance(point, mesh.corners(s).map(moved)) < 0.5 {
                     expected.push((s, image));
                 }
             }
         }
         assert_eq!(found, expected, "at {point:?}");
     }
-    assert_eq!(grid.near(&mesh, [1.0, 900.0], 0.5).count(), 0);
+    assert_eq!(tree.near(&mesh, [1.0, 900.0], 0.5).count(), 0);
+}
+
+fn sides(mesh: &Mesh<2>, inside: &[[f64; 2]], outside: &[[f64; 2]]) {
+    inside
+        .iter()
+        .for_each(|p| assert!(mesh.contains(*p), "{p:?}"));
+    outside
+        .iter()
+        .for_each(|p| assert!(!mesh.contains(*p), "{p:?}"));
 }
 
 #[test]
 fn inside_of_tanks_blocks_plates_and_channels() {
     let tank = Polyline::closed("tank", SQUARE.to_vec());
-    let block = Polyline::closed(
-        "block",
-        vec![[0.5, 0.0], [0.5, 1.0], [1.5, 1.0], [1.5, 0.0]],
-    );
+    let block = block("block", [0.5, 0.0], [1.5, 1.0]);
     let plate = thin_plate("plate", &[[0.2, 1.2], [1.8, 1.7]], 0.0).unwrap();
     let mesh = build(&[tank, block.clone(), plate]).unwrap();
-    let inside = [
+    let inside: &[_] = &[
         [0.25, 0.5],
         [1.0, 1.2],
         [1.0, 1.9],
         [0.5, 1.5],
         [1.999, 1e-9],
     ];
-    let outside = [
-        [1.0, 0.5],
-        [-0.1, 1.0],
-        [1.0, -0.1],
-        [1.0, 2.1],
-        [5.0, 1.0],
-        [1.0, 1e-9],
-    ];
-    assert!(inside.iter().all(|p| mesh.contains(*p)));
-    assert!(outside.iter().all(|p| !mesh.contains(*p)));
+    let left_and_right = [[-0.1, 1.0], [5.0, 1.0], [1.0, 0.5]];
+    let below_and_above = [[1.0, -0.1], [1.0, 2.1], [1.0, 1e-9]];
+    sides(&mesh, inside, &[left_and_right, below_and_above].concat());
     let alone = build(&[block]).unwrap();
-    assert!(
-        alone.contains([9.0, 9.0]) && alone.contains([1.0, 2.0]) && alone.contains([1.0, -1.0])
+    sides(
+        &alone,
+        &[[9.0, 9.0], [1.0, 2.0], [1.0, -1.0]],
+        &[[1.0, 0.5]],
     );
-    assert!(!alone.contains([1.0, 0.5]));
     let floor = Polyline::open("floor", vec![[0.0, 0.0], [4.0, 0.0]]);
     let lid = Polyline::open("lid", vec![[4.0, 2.0], [0.0, 2.0]]);
-    let ball = Polyline::closed("ball", vec![[3.5, 0.5], [3.5, 1.0], [4.5, 1.0], [4.5, 0.5]]);
+    let ball = self::block("ball", [3.5, 0.5], [4.5, 1.0]);
     let open = Mesh::<2>::build(&[floor.clone(), ball.clone()], 0.5, &channel()).unwrap();
     let closed = Mesh::<2>::build(&[floor, lid, ball], 0.5, &channel()).unwrap();
     for mesh in [&open, &closed] {
-        assert!(
-            mesh.contains([2.0, 1.0]) && mesh.contains([0.0, 0.2]) && mesh.contains([3.9, 1.2])
-        );
-        assert!(!mesh.contains([2.0, -0.1]) && !mesh.contains([0.2, 0.7]));
-        assert!(!mesh.contains([3.7, 0.7]));
+        let inside = [[2.0, 1.0], [0.0, 0.2], [3.9, 1.2]];
+        sides(mesh, &inside, &[[2.0, -0.1], [0.2, 0.7], [3.7, 0.7]]);
     }
     assert!(open.contains([2.0, 7.0]) && !closed.contains([2.0, 7.0]));
     assert!(build(&[]).unwrap().contains([0.0, 0.0]));
@@ -276,15 +258,18 @@ fn walls_move_from_their_reference() {
     };
     mesh.move_walls(&[Pose::default(), lifted]).unwrap();
     assert_eq!(mesh.nodes[..16], at_rest.nodes[..16]);
-    assert_eq!(
-        mesh.nodes[16].position[1],
-        at_rest.nodes[16].position[1] + 0.7
-    );
+    let [lifted, before] = [&mesh, &at_rest].map(|mesh| mesh.nodes[16].position[1]);
+    assert_eq!(lifted, before + 0.7);
     assert_eq!(mesh.elements[16].normal, at_rest.elements[16].normal);
     let turn = Pose::turned_about([0.0, 0.0, 1.0], std::f64::consts::PI, [1.0, 0.75]);
     mesh.move_walls(&[Pose::default(), turn]).unwrap();
     let opposite = mesh.elements[16].normal;
-    assert!((opposite[0] + at_rest.elements[16].normal[0]).abs() < 1e-14);
+    close(
+        opposite[0],
+        -at_rest.elements[16].normal[0],
+        1e-14,
+        "turned",
+    );
     mesh.move_walls(&[Pose::default(); 2]).unwrap();
     assert_eq!(&mesh.nodes, &at_rest.nodes, "exactly back");
     assert_eq!(&mesh.elements, &at_rest.elements, "exactly back");
@@ -309,8 +294,7 @@ fn joined_and_periodic_walls_cannot_be_torn() {
         "walls `left` and `right` are joined at (2, 0) and cannot move differently"
     );
     mesh.move_walls(&[up; 2]).unwrap();
-    let turned = mesh
-        .move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 2]); 2])
-        .unwrap_err();
-    assert!(turned.to_string().contains("cannot rotate"));
+    let turn = Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 2]);
+    let refused = mesh.move_walls(&[turn; 2]).unwrap_err();
+    assert!(refused.to_string().contains("cannot rotate"));
 }

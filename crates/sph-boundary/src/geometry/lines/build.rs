@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 use super::joints::{Continuation, Joints, joints};
 use crate::error::{BoundaryError, MOST_PAIRS, Place, Result};
 use crate::geometry::checks::{check_area, check_crossings, check_points, short_edges};
-use crate::geometry::mesh::{
-    Element, ElementMeasures, Mesh, Node, RayQueries, SAME_HEIGHT, SAME_PLACE, Sides,
-};
+use crate::geometry::mesh::{Element, Mesh, Node, SAME_HEIGHT, SAME_PLACE, Sides, Simplices};
 use crate::geometry::vector::{dot, perp, sub};
 use crate::{FreeEnd, PeriodicBox, Polyline, WallEnd};
 
@@ -177,7 +175,16 @@ fn first_nodes(polylines: &[Polyline], joints: &Joints, spacing: f64) -> Vec<usi
     polylines.iter().zip(&joints.after).map(first).collect()
 }
 
-impl ElementMeasures for Mesh<2> {
+/// θ = 1/2 − turn/2π between two directions of travel; 1 where the wall folds back.
+fn fluid_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
+    let (cross, dot) = (perp(from, to), dot(from, to));
+    if dot < 0.0 && cross.abs() <= FOLD {
+        return 1.0;
+    }
+    0.5 - cross.atan2(dot) / TAU
+}
+
+impl Simplices<2> for Mesh<2> {
     fn measure(&mut self, segment: usize) {
         let [a, b] = self.corners(segment);
         let [x, y] = sub(b, a);
@@ -194,18 +201,7 @@ impl ElementMeasures for Mesh<2> {
         }
         self.size_nodes();
     }
-}
 
-/// θ = 1/2 − turn/2π between two directions of travel; 1 where the wall folds back.
-fn fluid_angle(from: [f64; 2], to: [f64; 2]) -> f64 {
-    let (cross, dot) = (perp(from, to), dot(from, to));
-    if dot < 0.0 && cross.abs() <= FOLD {
-        return 1.0;
-    }
-    0.5 - cross.atan2(dot) / TAU
-}
-
-impl RayQueries<2> for Mesh<2> {
     fn crossing([a, b]: [[f64; 2]; 2], normal: [f64; 2], along: usize) -> Option<(f64, i32)> {
         let x = [a[1 - along], b[1 - along]];
         if (x[0] <= 0.0) == (x[1] <= 0.0) {

@@ -1,7 +1,7 @@
 //! The place of an element nearest to a point; distance and side of a place from a few elements.
 
 use super::elements::Mesh;
-use super::grid::NearElement;
+use super::tree::NearElement;
 use crate::geometry::vector::{along, dot, norm, sub};
 
 /// The nearest part of an element.

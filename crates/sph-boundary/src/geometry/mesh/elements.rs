@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use sph_core::bed::Bed;
 
-use super::grid::{NearElement, Sides};
+use super::tree::{NearElement, Sides};
 use crate::geometry::vector::{Point, add, sub};
 use crate::{FreeEnd, PeriodicBox, Pose, RigidMotion};
 
@@ -123,7 +123,7 @@ pub struct Opening {
 /// are merged. Inside a face are points of a square lattice along its longest edge; a rectangle of whole spacings gets
 /// exactly the lattice of the spacing. Where walls of one group touch face to face, the common part is left out of
 /// both, so that the mesh is the boundary of the fluid. Facets smaller than the spacing stay as they are drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mesh<const D: usize> {
     /// Names of the walls, in the order given.
     pub walls: Vec<String>,
@@ -172,22 +172,11 @@ impl<const D: usize> Mesh<D> {
         Mesh {
             poses: vec![Pose::default(); walls.len()],
             motions: vec![RigidMotion::default(); walls.len()],
-            beds: Vec::new(),
             walls,
             groups: groups.to_vec(),
             spacing,
             domain: *domain,
-            nodes: Vec::new(),
-            elements: Vec::new(),
-            beside: Vec::new(),
-            free_ends: Vec::new(),
-            faces: Vec::new(),
-            free_edges: Vec::new(),
-            openings: Vec::new(),
-            warnings: Vec::new(),
-            reference: Vec::new(),
-            reference_normals: Vec::new(),
-            sides: OnceLock::new(),
+            ..Mesh::default()
         }
     }
 
@@ -215,6 +204,23 @@ impl<const D: usize> Mesh<D> {
         }
         add(from, self.domain.shift(image))
     }
+}
+
+/// The parts of a mesh that differ between segments and triangles.
+pub trait Simplices<const D: usize> {
+    /// Finds length or area, centre and normal of an element.
+    fn measure(&mut self, element: usize);
+    /// Changes of nodes and faces by walls that moved.
+    fn follow(&mut self, moved: &[bool]);
+    /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
+    /// of it and −1 where it is on the far side.
+    fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
+    /// True if the fluid lies beyond all walls along the positive direction of an axis.
+    fn is_fluid_beyond(&self, along: usize) -> bool;
+    /// Prepares the winding number of walls that end freely.
+    fn wind(&self, sides: &mut Sides<D>);
+    /// Winding number of walls that end freely, around a place.
+    fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;
 }
 
 impl Mesh<3> {

@@ -3,8 +3,8 @@
 use sph_core::BoxTree;
 
 use super::closest::{Feature, angle, nearest_to_origin};
-use super::elements::Mesh;
-use super::grid::{Grid, NearElement, Rays, Sides, flattened};
+use super::elements::{Mesh, Simplices};
+use super::tree::{ElementTree, NearElement, Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
 
 /// Crossings of the ray closer to each other than this part of the wall's extent are one place.
@@ -18,22 +18,9 @@ const RIM: f64 = 1e-9;
 /// Walls that wind around a place by more than this enclose it, though they have openings.
 const ENCLOSED: f64 = 0.5;
 
-/// Queries of a ray and the eye to a mesh of one dimension.
-pub trait RayQueries<const D: usize> {
-    /// Height over the origin at which the ray along an axis meets an element, with +1 where the fluid is on the near side
-    /// of it and −1 where it is on the far side.
-    fn crossing(corners: [[f64; D]; D], normal: [f64; D], along: usize) -> Option<(f64, i32)>;
-    /// True if the fluid lies beyond all walls along the positive direction of an axis.
-    fn is_fluid_beyond(&self, along: usize) -> bool;
-    /// Winding number of a place where walls end freely.
-    fn wind(&self, sides: &mut Sides<D>);
-    /// Winding number of walls that end freely, around a place.
-    fn wound(&self, sides: &Sides<D>, point: [f64; D]) -> Option<f64>;
-}
-
 impl<const D: usize> Mesh<D>
 where
-    Self: RayQueries<D>,
+    Self: Simplices<D>,
 {
     /// True if a point is in the fluid, as the walls see it.
     ///
@@ -50,8 +37,8 @@ where
     /// The first call after a motion sorts the elements; then the cost is that of those that the ray may meet.
     pub fn contains(&self, point: [f64; D]) -> bool {
         let sides = self.sides();
-        if let Some(grid) = &sides.front
-            && let Some(front) = self.in_front(grid, self.domain.wrapped(point))
+        if let Some(tree) = &sides.front
+            && let Some(front) = self.in_front(tree, self.domain.wrapped(point))
         {
             return front;
         }
@@ -96,7 +83,7 @@ where
                 target: first.map_or([0.0; D], |element| element.centre),
                 rays: axes.iter().map(|k| self.rays(*k)).collect(),
                 beyond: open.is_none_or(|k| self.is_fluid_beyond(k)),
-                front: has_front.then(|| Grid::build(self, FRONT * self.spacing)),
+                front: has_front.then(|| ElementTree::build(self, FRONT * self.spacing)),
                 lines: Vec::new(),
                 winding: None,
             };
@@ -170,11 +157,11 @@ where
     ///
     /// At an edge or a node the mean normal decides, weighted with the angle of each element
     /// there: Bærentzen and Aanæs, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243.
-    fn in_front(&self, grid: &Grid<D>, point: [f64; D]) -> Option<bool> {
+    fn in_front(&self, tree: &ElementTree<D>, point: [f64; D]) -> Option<bool> {
         let radius = FRONT * self.spacing;
         let mut nearest = f64::INFINITY;
         let mut front = 0.0;
-        for near in grid.near(self, point, radius) {
+        for near in tree.near(self, point, radius) {
             let corners = self.corners_from(point, near);
             let (offset, feature) = nearest_to_origin(&corners);
             let distance = norm(offset);

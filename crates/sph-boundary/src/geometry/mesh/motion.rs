@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use sph_core::bed::Bed;
 
-use super::elements::Mesh;
+use super::elements::{Mesh, Simplices};
 use crate::error::{BoundaryError, Place, Result};
 use crate::rigid::pose::Pose;
 
@@ -12,20 +12,15 @@ pub(crate) fn bed_of(beds: &[Bed], wall: usize) -> Option<&Bed> {
     beds.iter().find(|bed| bed.walls.contains(&(wall as u32)))
 }
 
-pub trait ElementMeasures {
-    fn measure(&mut self, element: usize);
-    /// Changes of nodes and faces by walls that moved.
-    fn follow(&mut self, moved: &[bool]);
-}
-
 impl<const D: usize> Mesh<D>
 where
-    Self: ElementMeasures,
+    Self: Simplices<D>,
 {
     /// Moves every wall to its pose, one per wall, given with respect to the reference position.
     ///
     /// Positions never accumulate rounding: they are computed from the reference. Fluid angles change only where walls
-    /// bend. Walls whose pose is unchanged cost nothing. A [`Grid`](crate::Grid) must be built again afterwards.
+    /// bend. Walls whose pose is unchanged cost nothing. An [`ElementTree`](crate::ElementTree) must be built again
+    /// afterwards.
     ///
     /// # Errors
     /// A number of poses other than that of the walls, two walls that are joined or of one group with different poses, or

@@ -1,9 +1,11 @@
 //! Elements of a mesh near one or many points.
 
+use sph_core::BoxTree;
+
 use super::closest::nearest_to_origin;
 use super::elements::Mesh;
-use super::grid::{Grid, NearElement, NearRows, ROUNDING, Sphere};
-use crate::geometry::vector::{add, bounds, dot, norm, sub};
+use super::tree::{ElementTree, NearElement, NearRows, ROUNDING, Sphere};
+use crate::geometry::vector::{add, bounds, dot, norm, sub, widened};
 
 /// Diagonal of the box around points that are served together, over the radius.
 const TOGETHER: f64 = 0.75;
@@ -13,16 +15,16 @@ struct Candidates<const D: usize> {
     /// By image and element.
     found: Vec<NearElement<D>>,
     spheres: Vec<Sphere<D>>,
-    /// Image and element as one number, and the place in the grid.
+    /// Image and element as one number, and the place among the entries.
     keys: Vec<(u64, u32)>,
 }
 
-impl<const D: usize> Grid<D> {
-    /// Lists for the present position of the walls and queries up to the radius `reach`, m.
+impl<const D: usize> ElementTree<D> {
+    /// Of the present position of the walls, for queries up to the radius `reach`, m.
     ///
     /// With periodic directions, points in the box or within `reach` of it are served.
     pub fn build(mesh: &Mesh<D>, reach: f64) -> Self {
-        let mut images = Vec::with_capacity(mesh.elements.len());
+        let (mut entries, mut spheres) = (Vec::new(), Vec::new());
         let domain = &mesh.domain;
         let (mut margin, mut radii) = ([0.0; D], Vec::with_capacity(mesh.elements.len()));
         for (e, element) in mesh.elements.iter().enumerate() {
@@ -39,27 +41,38 @@ impl<const D: usize> Grid<D> {
         let box_ = [sub(domain.lower, margin), add(domain.upper, margin)];
         for (e, element) in mesh.elements.iter().enumerate() {
             for image in domain.images_within(box_, [element.centre; 2]) {
-                let sphere = Sphere {
-                    centre: add(element.centre, domain.shift(image)),
-                    radius: radii[e],
-                };
-                images.extend(NearElement::new(e, image).map(|near| (near, sphere)));
+                if let Some(near) = NearElement::new(e, image) {
+                    entries.push(near);
+                    spheres.push(Sphere {
+                        centre: add(element.centre, domain.shift(image)),
+                        radius: radii[e],
+                    });
+                }
             }
         }
-        Self::new(&images, reach)
+        let boxes = spheres.iter().map(|s| widened([s.centre; 2], s.radius));
+        ElementTree {
+            reach,
+            tree: BoxTree::new(boxes.collect()),
+            entries,
+            spheres,
+        }
     }
 
     /// Images of elements nearer than `radius` to a point, ascending by element, then image;
-    /// `radius` at most the reach of the grid.
+    /// `radius` at most the reach of the tree.
     pub fn near<'a>(
         &'a self,
         mesh: &'a Mesh<D>,
         point: [f64; D],
         radius: f64,
     ) -> impl Iterator<Item = NearElement<D>> + 'a {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+        debug_assert!(radius <= self.reach, "query beyond the reach of the tree");
         let mut found = Vec::new();
-        self.visit(point, radius, |place, distance2| {
+        self.tree.each(widened([point; 2], radius), |place| {
+            let Some(distance2) = self.spheres[place].within(point, radius) else {
+                return;
+            };
             let near = self.entries[place];
             // The mean of the corners is in the element.
             let surely = distance2 < radius * radius * (1.0 - ROUNDING);
@@ -75,12 +88,12 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Appends for every point the images of elements that may be nearer than `radius`, because the spheres around them
-    /// are, by image and element; `radius` at most the reach of the grid.
+    /// are, by image and element; `radius` at most the reach of the tree.
     ///
-    /// The grid is walked once, and its contents are sorted once, for neighbouring points that follow one another; each
+    /// The tree is searched once, and what it finds is sorted once, for neighbouring points that follow one another; each
     /// takes what is in its own reach.
     pub fn rows(&self, points: &[[f64; D]], radius: f64, rows: &mut NearRows<D>) {
-        debug_assert!(radius <= self.reach, "query beyond the reach of the grid");
+        debug_assert!(radius <= self.reach, "query beyond the reach of the tree");
         let mut candidates = Candidates::default();
         let mut rest = points;
         while !rest.is_empty() {
@@ -95,15 +108,13 @@ impl<const D: usize> Grid<D> {
 
     /// All that a point of the group may have, by image and element.
     fn gather(&self, group: &[[f64; D]], radius: f64, candidates: &mut Candidates<D>) {
-        let [lower, upper] = bounds(group.iter().copied());
-        let half = sub(upper, lower).map(|x| 0.5 * x);
-        let centre: [f64; D] = std::array::from_fn(|k| lower[k] + half[k]);
-        let spread = norm(half) * (1.0 + ROUNDING) + ROUNDING * radius;
+        let around = bounds(group.iter().copied());
         candidates.keys.clear();
-        self.visit(centre, radius + spread, |place, _| {
-            let key = key(&self.entries[place]);
-            candidates.keys.push((key, place as u32));
-        });
+        self.tree
+            .each(widened(around, radius * (1.0 + ROUNDING)), |place| {
+                let key = key(&self.entries[place]);
+                candidates.keys.push((key, place as u32));
+            });
         candidates.keys.sort_unstable();
         let places = || candidates.keys.iter().map(|(_, place)| *place as usize);
         candidates.found.clear();

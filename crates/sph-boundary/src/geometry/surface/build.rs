@@ -14,8 +14,8 @@ use super::wetted::{FaceContacts, remove_contacts, wetted_pieces};
 use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::unseen;
 use crate::geometry::mesh::{
-    Element, ElementMeasures, Face, FaceEdge, Mesh, Node, RayQueries, SAME_DISTANCE, SAME_HEIGHT,
-    SAME_PLACE, Sides, angle,
+    Element, Face, FaceEdge, Mesh, Node, SAME_DISTANCE, SAME_HEIGHT, SAME_PLACE, Sides, Simplices,
+    angle,
 };
 use crate::geometry::periodic::PeriodicBox;
 use crate::geometry::vector::{Point, add, bounds, double_area, norm, sub};
@@ -219,7 +219,7 @@ fn planar_pieces(
     Ok((pieces, touched))
 }
 
-impl ElementMeasures for Mesh<3> {
+impl Simplices<3> for Mesh<3> {
     fn measure(&mut self, triangle: usize) {
         let corners = self.corners(triangle);
         let double = double_area(corners);
@@ -249,12 +249,7 @@ impl ElementMeasures for Mesh<3> {
             }
         }
     }
-}
 
-/// Images of a periodic wall on either side reach this many extents of it, and are so many at most.
-const IMAGES: (f64, f64) = (5.0, 16.0);
-
-impl RayQueries<3> for Mesh<3> {
     /// Seen along the ray, the point is within a triangle if it is on the left of all edges or on the right of all.
     /// Both triangles at an edge compute the same number but for its sign, and a point on an edge counts as moved by an
     /// infinitely small step, so that a ray through an edge or a node meets a closed surface as often as one beside it.
@@ -308,6 +303,9 @@ impl RayQueries<3> for Mesh<3> {
         sides.winding.as_ref().map(|winding| -winding.at(&point))
     }
 }
+
+/// Images of a periodic wall on either side reach this many extents of it, and are so many at most.
+const IMAGES: (f64, f64) = (5.0, 16.0);
 
 /// Of the faces, each a fan over its edges, and of their images where one axis is periodic.
 fn winding(mesh: &Mesh<3>) -> Option<Winding> {

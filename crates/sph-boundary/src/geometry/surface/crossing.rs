@@ -21,7 +21,6 @@ pub(super) struct Contact {
 }
 
 enum Intersection {
-    Apart,
     Cross(Point),
     /// They lie in one plane and cover each other, with equal or opposite normals.
     Cover {
@@ -101,14 +100,12 @@ fn touch(surfaces: &[Surface], [a, b]: [&Drawn; 2], shift: Point, tolerance: f64
     let meeting = meet((moved, a.normal), (b.places, b.normal), tolerance);
     let together = a.group == b.group;
     match meeting {
-        Intersection::Cross(at) => {
+        None => Ok(false),
+        Some(Intersection::Cross(at)) => {
             let both = [a, b].map(|d| (&surfaces[d.wall].name[..], d.index));
             Err(BoundaryError::crossing("triangle", both, at))
         }
-        Intersection::Cover {
-            opposite: false,
-            at,
-        } if together => {
+        Some(Intersection::Cover { opposite, at }) if together && !opposite => {
             let ([wall, other], at) = ([a, b].map(|d| &surfaces[d.wall].name), Place::from(at));
             Err(BoundaryError(format!(
                 "triangle {} of wall `{wall}` and triangle {} of wall `{other}` cover each other near {at}: that piece \
@@ -116,11 +113,10 @@ fn touch(surfaces: &[Surface], [a, b]: [&Drawn; 2], shift: Point, tolerance: f64
                 a.index, b.index
             )))
         }
-        Intersection::Cover { opposite: true, at } if a.wall == b.wall => {
+        Some(Intersection::Cover { opposite, at }) if opposite && a.wall == b.wall => {
             Err(no_thickness(&surfaces[a.wall].name, [a, b], at))
         }
-        Intersection::Cover { .. } => Ok(together),
-        _ => Ok(false),
+        Some(Intersection::Cover { .. }) => Ok(together),
     }
 }
 
@@ -128,24 +124,20 @@ fn meet(
     (a, normal_a): ([Point; 3], Point),
     (b, normal_b): ([Point; 3], Point),
     tolerance: f64,
-) -> Intersection {
+) -> Option<Intersection> {
     let over_b = a.map(|p| dot(sub(p, b[0]), normal_b));
     let over_a = b.map(|p| dot(sub(p, a[0]), normal_a));
     let flat = |heights: [f64; 3]| heights.iter().all(|h| h.abs() <= tolerance);
     if flat(over_a) && flat(over_b) {
-        return match common_place(a, normal_a, b, tolerance) {
-            Some(at) => Intersection::Cover {
-                opposite: dot(normal_a, normal_b) < 0.0,
-                at,
-            },
-            None => Intersection::Apart,
-        };
+        let opposite = dot(normal_a, normal_b) < 0.0;
+        let place = common_place(a, normal_a, b, tolerance);
+        return place.map(|at| Intersection::Cover { opposite, at });
     }
     let straddles = |heights: [f64; 3]| {
         heights.iter().any(|h| *h > tolerance) && heights.iter().any(|h| *h < -tolerance)
     };
     if !(straddles(over_a) && straddles(over_b)) {
-        return Intersection::Apart;
+        return None;
     }
     // Both cut the line common to both planes; they cross if the pieces they cut out overlap.
     let line = unit(cross(normal_a, normal_b));
@@ -153,10 +145,8 @@ fn meet(
     let larger = |a: (f64, Point), b: (f64, Point)| if a.0 > b.0 { a } else { b };
     let smaller = |a: (f64, Point), b: (f64, Point)| if a.0 < b.0 { a } else { b };
     let (from, to) = (larger(first[0], second[0]), smaller(first[1], second[1]));
-    if to.0 - from.0 <= 4.0 * tolerance {
-        return Intersection::Apart;
-    }
-    Intersection::Cross(along(from.1, 0.5, sub(to.1, from.1)))
+    let apart = to.0 - from.0 <= 4.0 * tolerance;
+    (!apart).then(|| Intersection::Cross(along(from.1, 0.5, sub(to.1, from.1))))
 }
 
 /// The piece of a line that a triangle cuts out of it: both ends with their coordinate along it.
@@ -220,7 +210,7 @@ fn common_place(a: [Point; 3], normal: Point, b: [Point; 3], tolerance: f64) -> 
 mod tests {
     use super::*;
 
-    fn meeting(b: [Point; 3]) -> Intersection {
+    fn meeting(b: [Point; 3]) -> Option<Intersection> {
         let a = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
         let normal = unit(crate::geometry::vector::double_area(b));
         meet((a, [0.0, 0.0, 1.0]), (b, normal), 1e-6)
@@ -229,18 +219,17 @@ mod tests {
     #[test]
     fn touching_is_not_crossing() {
         let standing = |z: f64| [[0.5, 0.5, z], [1.0, 0.5, z], [0.5, 0.5, z + 1.0]];
-        assert!(matches!(meeting(standing(0.0)), Intersection::Apart));
-        assert!(matches!(meeting(standing(-1e-7)), Intersection::Apart));
-        assert!(matches!(meeting(standing(-0.5)), Intersection::Cross(_)));
+        let crosses = |b| matches!(meeting(b), Some(Intersection::Cross(_)));
+        assert!(meeting(standing(0.0)).is_none());
+        assert!(meeting(standing(-1e-7)).is_none());
+        assert!(crosses(standing(-0.5)));
         let beside = [[2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
-        assert!(matches!(meeting(beside), Intersection::Apart));
+        assert!(meeting(beside).is_none());
         let within = [[0.5, 0.5, 0.0], [0.5, 0.7, 0.0], [0.7, 0.5, 0.0]];
-        assert!(matches!(
-            meeting(within),
-            Intersection::Cover { opposite: true, .. }
-        ));
+        let covers = |i| matches!(i, Intersection::Cover { opposite: true, .. });
+        assert!(meeting(within).is_some_and(covers));
         // It has a corner in common and goes through.
         let through = [[0.0, 0.0, 0.0], [1.0, 1.0, -1.0], [1.0, 1.0, 1.0]];
-        assert!(matches!(meeting(through), Intersection::Cross(_)));
+        assert!(crosses(through));
     }
 }

@@ -4,7 +4,7 @@ use super::places::{HalfEdge, Places, Site, half_edges};
 use crate::Polyline;
 use crate::error::{BoundaryError, Place, Result};
 use crate::geometry::checks::check_finite;
-use crate::geometry::vector::{Point, bounds, dot, double_area, norm, sub};
+use crate::geometry::vector::{Point, bounds, dot, double_area, norm, padded, sub};
 use crate::parallel::*;
 
 /// Area over longest edge squared below which a triangle has none.
@@ -58,14 +58,10 @@ impl Drawing {
     /// Its points, with a given number of coordinates, m.
     pub fn points<const D: usize>(&self) -> Vec<[f64; D]> {
         match self {
-            Self::Line(line) => line.points.iter().map(cut).collect(),
-            Self::Surface(surface) => surface.points.iter().map(cut).collect(),
+            Self::Line(line) => line.points.iter().map(|p| padded(p)).collect(),
+            Self::Surface(surface) => surface.points.iter().map(|p| padded(p)).collect(),
         }
     }
-}
-
-fn cut<const N: usize, const D: usize>(place: &[f64; N]) -> [f64; D] {
-    std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0))
 }
 
 pub(super) struct Drawn {

@@ -16,7 +16,8 @@ impl Walls<3> {
     ) -> impl Iterator<Item = &'a [NearElement<3>]> + 'a {
         std::iter::from_fn(move || {
             let first = row.first()?;
-            let end = self.planes.ends[self.planes.faces[first.index()] as usize];
+            let face = self.mesh.elements[first.index()].face;
+            let end = self.planes.faces[face].end;
             let same = |n: &NearElement<3>| n.image == first.image && n.element < end;
             let (part, rest) = row.split_at(first_other(row, same));
             row = rest;
@@ -53,13 +54,13 @@ impl Walls<3> {
     ) -> Vec<NearElement<3>> {
         let (mut all, mut found) = (Vec::new(), Vec::new());
         for part in self.faces(row) {
-            let face = self.planes.faces[part[0].index()] as usize;
-            let Some(map) = self.planes.maps[face].as_ref() else {
+            let face = &self.planes.faces[self.mesh.elements[part[0].index()].face];
+            let Some(map) = &face.map else {
                 all.extend_from_slice(part);
                 continue;
             };
             let image = part[0].image;
-            let foot = self.planes.planes[face].foot(self.unshifted(point, image));
+            let foot = face.plane.foot(self.unshifted(point, image));
             map.within(foot, distance, &mut found);
             all.extend(found.iter().map(|&element| NearElement { element, image }));
         }
@@ -87,12 +88,13 @@ impl Walls<3> {
             if height.abs() >= radius {
                 continue;
             }
+            let face = &self.planes.faces[first.face];
             let foot = Foot {
-                place: self.planes.planes[first.face].foot(self.unshifted(point, image)),
+                place: face.plane.foot(self.unshifted(point, image)),
                 height,
                 reach: (radius * radius - height * height).sqrt(),
             };
-            let map = self.planes.maps[first.face].as_ref();
+            let map = face.map.as_ref();
             let seen = match map {
                 Some(map) => map.is_within(foot.place, foot.reach),
                 None => {
@@ -103,7 +105,7 @@ impl Walls<3> {
             if !seen {
                 continue;
             }
-            let edges = self.planes.edges[first.face].iter().map(|[start, end]| {
+            let edges = face.edges.iter().map(|[start, end]| {
                 let start = self.seen(start, image, point).into();
                 [start, self.seen(end, image, point).into()]
             });
@@ -117,7 +119,7 @@ impl Walls<3> {
                 continue;
             }
             if let Some(map) = map {
-                let at = self.planes.planes[first.face].part(whole.moment);
+                let at = face.plane.part(whole.moment);
                 // Where next to nothing of the face is seen, rounding may lead out of reach.
                 let scale = 1.0 / whole.kernel.max(at[0].hypot(at[1]) / foot.reach);
                 let place = [0, 1].map(|k| foot.place[k] + at[k] * scale);

@@ -13,19 +13,23 @@ const ROUNDING: f64 = 1e-9;
 /// The faces as planes, and the triangles in them.
 #[derive(Debug, Default)]
 pub(crate) struct Planes {
-    /// By face: its plane, with coordinates that move with the first triangle.
-    pub planes: Vec<Plane>,
-    /// By face: one more than its last triangle.
-    pub ends: Vec<u32>,
-    /// By face: its edges, with the corners at hand.
-    pub edges: Vec<Vec<[Corner; 2]>>,
-    pub faces: Vec<u32>,
-    /// By face: the search for the triangle at a place, where all that a particle sees of the face is one contact; none
-    /// where each triangle is one.
-    pub maps: Vec<Option<FaceMap>>,
+    pub faces: Vec<PlaneFace>,
     /// By triangle; none where every face is one contact.
     pub patches: Vec<Patch>,
     pub circles: Vec<Circle>,
+}
+
+#[derive(Debug)]
+pub(crate) struct PlaneFace {
+    /// Its triangles.
+    first: u32,
+    pub end: u32,
+    /// With coordinates that move with the first triangle.
+    pub plane: Plane,
+    pub edges: Vec<[Corner; 2]>,
+    /// The search for the triangle at a place, where all that a particle sees of the face is one contact; none where
+    /// each triangle is one.
+    pub map: Option<FaceMap>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,16 +52,22 @@ impl Planes {
     pub fn new(mesh: &Mesh<3>, cut: impl Fn(usize) -> bool) -> Self {
         let mut all = Self::default();
         // Triangles are stored face by face.
+        let mut ends = Vec::new();
         for (t, triangle) in mesh.elements.iter().enumerate() {
-            all.ends.resize(triangle.face + 1, t as u32);
-            all.ends[triangle.face] = t as u32 + 1;
-            all.faces.push(triangle.face as u32);
+            ends.resize(triangle.face + 1, t);
+            ends[triangle.face] = t + 1;
         }
         let mut first = 0;
-        for &end in &all.ends {
-            let end = end as usize;
+        for end in ends {
             let whole = first < end && !cut(mesh.elements[first].wall);
-            all.maps.push(whole.then(|| FaceMap::new(mesh, first, end)));
+            let map = whole.then(|| FaceMap::new(mesh, first, end));
+            all.faces.push(PlaneFace {
+                first: first as u32,
+                end: end as u32,
+                plane: plane_of(mesh, first, map.is_some()),
+                edges: Vec::new(),
+                map,
+            });
             first = end;
         }
         all.follow(mesh);
@@ -65,29 +75,20 @@ impl Planes {
     }
 
     pub fn follow(&mut self, mesh: &Mesh<3>) {
-        self.edges.clear();
-        for face in &mesh.faces {
-            let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
-            let edges = face.edges.iter().map(|e| [corner(e, 0), corner(e, 1)]);
-            self.edges.push(edges.collect());
-        }
-        let firsts = std::iter::once(0).chain(self.ends.iter().copied());
-        let firsts = firsts.take(self.ends.len());
-        self.planes.clear();
-        for (first, map) in firsts.zip(&self.maps) {
-            let first = first as usize;
-            self.planes.push(match map {
-                Some(_) => plane_of(mesh, first),
-                None => Plane::new(mesh.corners(first)[0], mesh.elements[first].normal),
-            });
+        let corner = |e: &FaceEdge, k: usize| Corner::new(mesh, e.nodes[k], e.images[k]);
+        for (face, drawn) in self.faces.iter_mut().zip(&mesh.faces) {
+            face.plane = plane_of(mesh, face.first as usize, face.map.is_some());
+            face.edges.clear();
+            let edges = drawn.edges.iter().map(|e| [corner(e, 0), corner(e, 1)]);
+            face.edges.extend(edges);
         }
         self.patches.clear();
         self.circles.clear();
-        if self.maps.iter().all(Option::is_some) {
+        if self.faces.iter().all(|face| face.map.is_some()) {
             return;
         }
         for (t, triangle) in mesh.elements.iter().enumerate() {
-            let plane = &self.planes[triangle.face];
+            let plane = &self.faces[triangle.face].plane;
             let (patch, circle) = Patch::new(plane, mesh.corners(t), triangle.measure);
             self.patches.push(patch);
             self.circles.push(circle);
@@ -113,16 +114,20 @@ pub(crate) struct FaceMap {
     triangles: Vec<u32>,
 }
 
-/// The plane of a face, with its origin at the first corner of a triangle and the first axis along its first side.
-fn plane_of(mesh: &Mesh<3>, triangle: usize) -> Plane {
-    let [a, b, _] = mesh.corners(triangle);
-    Plane::along(sub(b, a), a, mesh.elements[triangle].normal)
+/// The plane of a face, with its origin at the first corner of a triangle; the first axis is along its first side if it
+/// has to move with the triangle.
+fn plane_of(mesh: &Mesh<3>, triangle: usize, moves: bool) -> Plane {
+    let ([a, b, _], normal) = (mesh.corners(triangle), mesh.elements[triangle].normal);
+    match moves {
+        true => Plane::along(sub(b, a), a, normal),
+        false => Plane::new(a, normal),
+    }
 }
 
 impl FaceMap {
     /// Of the triangles from `first` to `end` of a mesh, which lie in one plane.
     pub fn new(mesh: &Mesh<3>, first: usize, end: usize) -> Self {
-        let plane = plane_of(mesh, first);
+        let plane = plane_of(mesh, first, true);
         let flat = |t: usize| mesh.corners(t).map(|corner| plane.foot(corner));
         let corners: Vec<_> = (first..end).map(flat).collect();
         let [lower, upper] = bounds(corners.iter().flatten().copied());

@@ -112,15 +112,15 @@ impl WallMesh<2> for Walls<2> {
             return Ok(());
         }
         self.mesh.move_walls(poses)?;
-        self.grid.take();
+        self.tree.take();
         Ok(())
     }
 
     fn near_all(&self, points: &[Vect<2>], radius: f64, rows: &mut NearRows<2>) {
-        let (radius, grid) = (radius.min(self.reach), self.grid());
+        let (radius, tree) = (radius.min(self.reach), self.tree());
         for point in points {
             let from = rows.elements.len();
-            let near = grid.near(&self.mesh, (*point).into(), radius);
+            let near = tree.near(&self.mesh, (*point).into(), radius);
             rows.elements.extend(near);
             rows.counts.push((rows.elements.len() - from) as u32);
         }

@@ -57,7 +57,7 @@ impl WallMesh<3> for Walls<3> {
 
     fn move_walls(&mut self, poses: &[Pose<3>]) -> Result<()> {
         self.mesh.move_walls(poses)?;
-        self.grid.take();
+        self.tree.take();
         self.planes.follow(&self.mesh);
         Ok(())
     }
@@ -66,7 +66,7 @@ impl WallMesh<3> for Walls<3> {
     /// to see them left out by every γ. Face by face, as the triangles are.
     fn near_all(&self, points: &[Vect<3>], radius: f64, rows: &mut NearRows<3>) {
         let points: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
-        self.grid().rows(&points, radius.min(self.reach), rows);
+        self.tree().rows(&points, radius.min(self.reach), rows);
     }
 
     /// One triangle of each face that is one contact: the rest of it is found from there.
@@ -80,8 +80,8 @@ impl WallMesh<3> for Walls<3> {
                     .faces(&elements[from..end])
                     .next()
                     .map_or(0, <[_]>::len);
-                let face = self.planes.faces[elements[from].index()];
-                let left = match &self.planes.maps[face as usize] {
+                let face = self.mesh.elements[elements[from].index()].face;
+                let left = match &self.planes.faces[face].map {
                     Some(_) => 1,
                     None => part,
                 };

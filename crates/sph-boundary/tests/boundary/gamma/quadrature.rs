@@ -44,8 +44,7 @@ impl Gauss {
 /// Ascending, without repetition, cut to [low, high], both included.
 pub fn breaks(mut inner: Vec<f64>, low: f64, high: f64) -> Vec<f64> {
     inner.retain(|x| *x > low && *x < high);
-    inner.push(low);
-    inner.push(high);
+    inner.extend([low, high]);
     inner.sort_by(f64::total_cmp);
     inner.dedup();
     inner

@@ -2,6 +2,8 @@
 
 use sph_boundary::{Contact, Renormalisation2d};
 
+use crate::close;
+
 fn wendland() -> Renormalisation2d {
     Renormalisation2d::new(sph_kernels::wendland_c2().shape(), 1.0).unwrap()
 }
@@ -25,21 +27,10 @@ fn infinite_flat_wall() {
     ];
     for (d, gradient, gamma) in table {
         let seen = wendland().segment([-9.0, -d], [9.0, -d], [0.0, 1.0]);
-        let theta = if seen.contact == Contact::Inside {
-            0.5
-        } else {
-            1.0
-        };
-        assert!(
-            (seen.kernel - gradient).abs() < NINE_DIGITS,
-            "d = {d}: {}",
-            seen.kernel
-        );
-        assert!(
-            (theta - seen.gamma - gamma).abs() < NINE_DIGITS,
-            "d = {d}: {}",
-            seen.gamma
-        );
+        let inside = seen.contact == Contact::Inside;
+        let theta = if inside { 0.5 } else { 1.0 };
+        close(seen.kernel, gradient, NINE_DIGITS, d);
+        close(theta - seen.gamma, gamma, NINE_DIGITS, d);
     }
 }
 
@@ -56,16 +47,8 @@ fn single_segments() {
     ];
     for (q0, y1, y2, gradient, gamma) in table {
         let seen = wendland().segment([y1, -q0], [y2, -q0], [0.0, 1.0]);
-        assert!(
-            (seen.kernel - gradient).abs() < TWELVE_DIGITS,
-            "{q0} {y1}: {}",
-            seen.kernel
-        );
-        assert!(
-            (seen.gamma - gamma).abs() < TWELVE_DIGITS,
-            "{q0} {y1}: {}",
-            seen.gamma
-        );
+        close(seen.kernel, gradient, TWELVE_DIGITS, (q0, y1));
+        close(seen.gamma, gamma, TWELVE_DIGITS, (q0, y1));
         let behind = wendland().segment([y1, q0], [y2, q0], [0.0, 1.0]);
         assert_eq!((behind.kernel, behind.gamma), (seen.kernel, -seen.gamma));
     }
@@ -81,13 +64,10 @@ fn corners() {
     let right = 1.0
         - arm(p, [0.0, 9.0], [0.0, 0.0], [1.0, 0.0])
         - arm(p, [0.0, 0.0], [9.0, 0.0], [0.0, 1.0]);
-    assert!((right - 0.69645881).abs() < 5.1e-9, "90° corner: {right}");
+    close(right, 0.69645881, 5.1e-9, "90° corner");
     let p = [-0.3, 0.6];
     let reentrant = 1.0
         - arm(p, [-9.0, 0.0], [0.0, 0.0], [0.0, 1.0])
         - arm(p, [0.0, 0.0], [0.0, -9.0], [1.0, 0.0]);
-    assert!(
-        (reentrant - 0.90540692).abs() < 5.1e-9,
-        "270° corner: {reentrant}"
-    );
+    close(reentrant, 0.90540692, 5.1e-9, "270° corner");
 }

@@ -18,7 +18,7 @@ fn wedge(vertex: [f64; 2], first_arm: f64, angle: f64) -> Vec<[f64; 2]> {
 #[test]
 fn every_wedge_at_every_distance() {
     let mut random = Random(1);
-    let mut errors = Errors::none();
+    let mut errors = Errors::default();
     for tens in 1..=35 {
         let angle = f64::from(10 * tens).to_radians();
         let vertex = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];

@@ -3,6 +3,7 @@
 use sph_core::Vect;
 
 use crate::bench::{Bench, over_a_flat_wall};
+use crate::close;
 
 /// Rows 1 to 4 at y = ½, 1, 1½, 2 h; ten rows fill their supports.
 fn row(bench: &Bench<2>, k: usize) -> usize {
@@ -25,12 +26,8 @@ fn discrete_gradient(bench: &Bench<2>, i: usize) -> f64 {
 }
 
 /// Printed digits: half a unit of the last one, plus the rounding of the reference.
-fn as_printed(value: f64, printed: f64, digits: i32, what: &str) {
-    let half = 0.5000001 * 10f64.powi(-digits);
-    assert!(
-        (value - printed).abs() <= half,
-        "{what}: {value} is not {printed}"
-    );
+fn as_printed(value: f64, printed: f64, digits: i32, row: usize) {
+    close(value, printed, 0.5000001 * 10f64.powi(-digits), row);
 }
 
 #[test]
@@ -38,7 +35,7 @@ fn the_lattice_sum_of_gradients_is_4808_1589_0188_0000() {
     let bench = over_a_flat_wall("usaw", 10, 0.0);
     for (k, printed) in [(1, 0.4808), (2, 0.1589), (3, 0.0188), (4, 0.0)] {
         let sum = discrete_gradient(&bench, row(&bench, k));
-        as_printed(sum, printed, 4, &format!("row {k}"));
+        as_printed(sum, printed, 4, k);
     }
 }
 
@@ -47,16 +44,11 @@ fn the_wall_gradient_is_4837_1363_0091_0000_along_the_normal() {
     let bench = over_a_flat_wall("usaw", 10, 0.0);
     for (k, printed) in [(1, 0.4837), (2, 0.1363), (3, 0.0091), (4, 0.0)] {
         let contacts = bench.world.walls.contacts.of_particle(row(&bench, k));
-        let gradient: Vect<2> = contacts.iter().map(|c| c.gradient).sum();
-        as_printed(gradient[1], printed, 4, &format!("row {k}"));
+        let gradient = bench.gradient(row(&bench, k));
+        as_printed(gradient[1], printed, 4, k);
         assert!(gradient[0].abs() < 1e-16, "along the wall: {}", gradient[0]);
         for contact in contacts {
-            let distance = 0.5 * k as f64;
-            assert!(
-                (contact.distance - distance).abs() < 1e-15,
-                "{}",
-                contact.distance
-            );
+            close(contact.distance, 0.5 * k as f64, 1e-15, k);
         }
     }
 }
@@ -71,23 +63,12 @@ fn gamma_is_82349691_97149094_99912974_and_1_beyond() {
         (4, 1.0),
     ];
     for (k, printed) in table {
-        as_printed(
-            bench.gamma()[row(&bench, k)],
-            printed,
-            9,
-            &format!("row {k}"),
-        );
+        as_printed(bench.gamma()[row(&bench, k)], printed, 9, k);
     }
     // Out of reach there is nothing to compute, so it is 1 and not nearly 1.
-    assert_eq!(bench.gamma()[row(&bench, 9)], 1.0);
-    assert!(
-        bench
-            .world
-            .walls
-            .contacts
-            .of_particle(row(&bench, 9))
-            .is_empty()
-    );
+    let far = row(&bench, 9);
+    assert_eq!(bench.gamma()[far], 1.0);
+    assert!(bench.world.walls.contacts.of_particle(far).is_empty());
 }
 
 #[test]
@@ -99,11 +80,7 @@ fn every_column_of_a_periodic_row_sees_the_same_wall() {
     assert_eq!(first_row.len(), 16);
     for (x, gamma) in first_row {
         // Sums over the same segments in another order: a few roundings.
-        assert!(
-            (gamma - middle).abs() < 1e-14,
-            "x = {}: {gamma} {middle}",
-            x[0]
-        );
+        close(*gamma, middle, 1e-14, x);
     }
 }
 

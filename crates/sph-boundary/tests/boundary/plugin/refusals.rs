@@ -60,10 +60,8 @@ fn a_free_end_within_reach_is_refused_by_name_and_one_beyond_is_not() {
             .unwrap();
         let far = Vect::<2>::new(1.0, 1.2);
         wall.check_free_ends(&[far]).expect("2.06 h from the rim");
-        let refused = wall
-            .check_free_ends(&[far, Vect::<2>::new(0.5, 1.2)])
-            .unwrap_err();
-        let told = refused.to_string();
+        let refused = wall.check_free_ends(&[far, Vect::<2>::new(0.5, 1.2)]);
+        let told = refused.unwrap_err().to_string();
         assert!(told.contains("end of wall `beaker`"), "{told}");
         assert!(told.contains("within the kernel radius 2 m"), "{told}");
         let (_, away) = told.split_once("particle 1 is ").expect("its particle");
@@ -75,10 +73,8 @@ fn a_free_end_within_reach_is_refused_by_name_and_one_beyond_is_not() {
 #[test]
 fn walls_that_cross_are_refused_with_both_names_and_the_place() {
     for name in ["usaw", "dummy-particles"] {
-        let sill = Polyline::closed(
-            "sill",
-            vec![[3.0, -1.0], [3.0, 1.0], [5.0, 1.0], [5.0, -1.0]],
-        );
+        let corners = vec![[3.0, -1.0], [3.0, 1.0], [5.0, 1.0], [5.0, -1.0]];
+        let sill = Polyline::closed("sill", corners);
         let refused = built(name, &[square(), fixed_line(sill)], &wendland_c2()).unwrap_err();
         let told = refused.to_string();
         assert!(told.contains(" crosses edge "), "{told}");
@@ -98,22 +94,12 @@ fn a_wall_drawn_the_wrong_way_round_has_its_fluid_outside() {
         let mut wall = treatment("usaw");
         wall.build(&setup(&[spec], 0.5, &wendland_c2(), &domain))
             .unwrap();
-        for (x, y) in [(4.0, 4.0), (0.1, 0.1), (7.9, 4.0)] {
-            assert_eq!(
-                wall.contains(&Vect::<2>::new(x, y)),
-                fluid_inside,
-                "({x}, {y})"
-            );
-            assert_eq!(
-                wall.contains(&Vect::<2>::new(-x, y)),
-                !fluid_inside,
-                "({}, {y})",
-                -x
-            );
+        for x in [[4.0, 4.0], [0.1, 0.1], [7.9, 4.0]].map(Vect::from) {
+            let beside = Vect::<2>::new(-x[0], x[1]);
+            assert_eq!(wall.contains(&x), fluid_inside, "{x}");
+            assert_eq!(wall.contains(&beside), !fluid_inside, "{beside}");
         }
-        assert_eq!(
-            wall.clearance(&Vect::<2>::new(0.1, 4.0), 1.0).unwrap().1,
-            "tank"
-        );
+        let near = wall.clearance(&Vect::<2>::new(0.1, 4.0), 1.0);
+        assert_eq!(near.unwrap().1, "tank");
     }
 }

@@ -15,7 +15,7 @@ fn points() -> impl Iterator<Item = Vect<2>> {
     let mut random = Random::new(21);
     (0..3000).map(move |k| {
         let width = [1.5, 4.0, 30.0][k % 3];
-        Vect::<2>::new(random.between(-width, width), random.between(-width, width))
+        random.point(-width, width)
     })
 }
 
@@ -24,18 +24,14 @@ fn there_is_fluid_on_both_sides_of_a_plate_of_zero_thickness() {
     let lying = [[-1.0, 0.2], [1.0, 0.2]];
     let standing = [[0.1, -1.0], [0.1, 1.0]];
     let slanted = [[-1.0, -0.7], [1.0, 0.3]];
-    for ends in [lying, standing, slanted] {
-        for points_of_plate in [ends.to_vec(), vec![ends[1], ends[0]]] {
-            let plate = around(thin_plate("plate", &points_of_plate, 0.0).unwrap());
-            for x in points() {
-                assert!(plate.wall.contains(&x), "{points_of_plate:?}: {x} is solid");
-            }
+    let both_ways = |[a, b]: [[f64; 2]; 2]| [vec![a, b], vec![b, a]];
+    let straight = [lying, standing, slanted].into_iter().flat_map(both_ways);
+    let bent = vec![[-1.5, -0.5], [0.0, 0.2], [1.5, 0.2]];
+    for line in straight.chain([bent]) {
+        let plate = around(thin_plate("plate", &line, 0.0).unwrap());
+        for x in points() {
+            assert!(plate.wall.contains(&x), "{line:?}: {x} is solid");
         }
-    }
-    let bent = [[-1.5, -0.5], [0.0, 0.2], [1.5, 0.2]];
-    let plate = around(thin_plate("plate", &bent, 0.0).unwrap());
-    for x in points() {
-        assert!(plate.wall.contains(&x), "bent: {x} is solid");
     }
 }
 

@@ -2,13 +2,12 @@
 
 mod corners;
 mod paths;
-mod planes;
+pub mod planes;
 mod quadrature;
-mod solid;
+pub mod solid;
 mod solids;
 mod touching;
 mod triangles;
-mod vector;
 
 use sph_boundary::Renormalisation3d;
 use sph_kernels::{Kernel, PolynomialKernel};

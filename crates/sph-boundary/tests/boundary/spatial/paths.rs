@@ -3,9 +3,9 @@
 use sph_boundary::Renormalisation3d;
 
 use super::solid::Solid;
-use super::vector::{Vector, dot, minus, plus, turned};
 use super::{assert_within, kernels, quadrature};
 use crate::random::Random;
+use crate::vector::{Vector, dot, minus, plus, turned};
 
 /// The difference of γ along a straight path less the integral of its gradient.
 fn defect(of: &Renormalisation3d, solid: &Solid, from: Vector, to: Vector, via: &[f64]) -> f64 {
@@ -36,6 +36,14 @@ fn worst(of: &Renormalisation3d, solid: &Solid, features: &[Vector], seed: u64) 
     worst
 }
 
+fn check(faces: Vec<Vec<Vector>>, features: [Vector; 5], angle: f64, seed: u64) {
+    let block = Solid::mapped(faces, |v| turned(v, angle));
+    let features = features.map(|v| turned(v, angle));
+    for (kernel, of) in kernels() {
+        assert_within(&kernel, worst(&of, &block, &features, seed), 1e-7);
+    }
+}
+
 #[test]
 fn through_a_bend() {
     // On the re-entrant edge, its end, faces and other edges.
@@ -46,11 +54,7 @@ fn through_a_bend() {
         [1.0, 0.0, 0.5],
         [-1.0, -1.0, -1.0],
     ];
-    let block = Solid::mapped(Solid::l_block(1.0), |v| turned(v, 0.4));
-    let features = features.map(|v| turned(v, 0.4));
-    for (kernel, of) in kernels() {
-        assert_within(&kernel, worst(&of, &block, &features, 5), 1e-7);
-    }
+    check(Solid::l_block(1.0), features, 0.4, 5);
 }
 
 #[test]
@@ -62,9 +66,5 @@ fn through_a_notch() {
         [1.0, 1.0, 1.0],
         [1.0, 0.2, 1.0],
     ];
-    let block = Solid::mapped(Solid::notched(1.0), |v| turned(v, 2.0));
-    let features = features.map(|v| turned(v, 2.0));
-    for (kernel, of) in kernels() {
-        assert_within(&kernel, worst(&of, &block, &features, 9), 1e-7);
-    }
+    check(Solid::notched(1.0), features, 2.0, 9);
 }

@@ -2,7 +2,7 @@
 
 use sph_boundary::{GammaSum, Renormalisation3d};
 
-use super::vector::{Vector, cross, dot, minus, plus, unit};
+use crate::vector::{Vector, cross, dot, edges, minus, plus, unit};
 
 /// Faces as corners counter-clockwise about the inward normal, and that normal.
 pub struct Solid(pub Vec<(Vec<Vector>, Vector)>);
@@ -10,11 +10,8 @@ pub struct Solid(pub Vec<(Vec<Vector>, Vector)>);
 impl Solid {
     pub fn new(faces: Vec<Vec<Vector>>) -> Self {
         let with_normal = |face: Vec<Vector>| {
-            let edges = (0..face.len()).map(|i| [face[i], face[(i + 1) % face.len()]]);
-            let area = |sum, [a, b]: [Vector; 2]| {
-                plus(sum, 1.0, cross(minus(a, face[0]), minus(b, face[0])))
-            };
-            let normal = unit(edges.fold([0.0; 3], area));
+            let area = |sum, [a, b]: [Vector; 2]| plus(sum, 1.0, cross(a, b));
+            let normal = unit(edges(&face, face[0]).fold([0.0; 3], area));
             (face, normal)
         };
         Self(faces.into_iter().map(with_normal).collect())
@@ -64,11 +61,8 @@ impl Solid {
     pub fn at(&self, of: &Renormalisation3d, point: Vector) -> GammaSum<3> {
         let mut sum = GammaSum::<3>::default();
         for (face, n) in &self.0 {
-            let n_corners = face.len();
-            let edges = (0..n_corners)
-                .map(|i| [face[i], face[(i + 1) % n_corners]].map(|c| minus(c, point)));
             let height = dot(minus(point, face[0]), *n);
-            sum.add(&of.polygon(height, *n, edges), *n);
+            sum.add(&of.polygon(height, *n, edges(face, point)), *n);
         }
         sum
     }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use sph_kernels::{Kernel, PiecewisePolynomial};
 
 use super::solid::Solid;
-use super::vector::{Vector, dot, minus, plus, turned, unit};
 use super::{assert_within, kernels, quadrature};
+use crate::vector::{Vector, dot, minus, plus, turned, unit};
 
 /// ∫ w dV over a box as seen from a point, by Gauss rules on panels of 0.1 h.
 fn volume(kernel: &dyn Kernel, sides: [[f64; 2]; 3], point: Vector) -> f64 {
@@ -31,14 +31,8 @@ fn volume(kernel: &dyn Kernel, sides: [[f64; 2]; 3], point: Vector) -> f64 {
 fn boxes_are_as_by_volume_quadrature() {
     let sides = [[0.0, 1.5], [0.0, 1.1], [0.0, 0.9]];
     let solid = Solid::mapped(Solid::box_of(sides), |v| turned(v, 0.7));
-    let inverted = Solid::mapped(Solid::box_of(sides), |v| turned(v, 0.7));
-    let inverted = Solid::new(
-        inverted
-            .0
-            .into_iter()
-            .map(|(face, _)| face.into_iter().rev().collect())
-            .collect(),
-    );
+    let reversed = |(face, _): &(Vec<Vector>, Vector)| face.iter().rev().copied().collect();
+    let inverted = Solid::new(solid.0.iter().map(reversed).collect());
     for (kernel, of) in kernels() {
         let mut worst: f64 = 0.0;
         for point in [
@@ -91,7 +85,7 @@ fn icosphere(radius: f64, n: u32) -> Solid {
                 let t = [corners[i], corners[j], corners[k]];
                 let near = |a, b| dot(minus(a, b), minus(a, b)) < 4.1;
                 if near(t[0], t[1]) && near(t[1], t[2]) && near(t[2], t[0]) {
-                    let n = super::vector::normal(t);
+                    let n = crate::vector::normal(t);
                     let inward = dot(n, t[0]) < 0.0;
                     faces.push(if inward { t } else { [t[0], t[2], t[1]] });
                 }
@@ -122,15 +116,11 @@ fn faceted_balls_converge_with_order_two() {
         for d in [0.0, 0.8, 1.25, 1.6] {
             let exact = ball(kernel.shape(), radius, d);
             let point = unit([0.3, 0.5, 0.8]).map(|x| d * x);
-            let errors = solids
-                .each_ref()
-                .map(|s| s.at_by_triangles(&of, point).gamma() - exact);
+            let error = |s: &Solid| s.at_by_triangles(&of, point).gamma() - exact;
+            let errors = solids.each_ref().map(error);
             let orders = [0, 1].map(|i: usize| (errors[i] / errors[i + 1]).log2());
-            println!(
-                "{:15} d = {d:4} {:?} {orders:.2?}",
-                kernel.name(),
-                errors.map(|e| e as f32)
-            );
+            let seen = errors.map(|e| e as f32);
+            println!("{:15} d = {d:4} {seen:?} {orders:.2?}", kernel.name());
             assert!((orders[1] - 2.0).abs() < 0.25, "{errors:?}");
             assert!(errors[2].abs() < 4e-3);
         }

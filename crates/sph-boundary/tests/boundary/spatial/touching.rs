@@ -5,9 +5,9 @@ use sph_kernels::PiecewisePolynomial;
 use super::corners::on_line;
 use super::planes::excess;
 use super::solid::Solid;
-use super::vector::{Vector, plus, turned};
 use super::{TOLERANCE, assert_within, kernels};
 use crate::random::Random;
+use crate::vector::{Vector, plus, turned};
 
 const OFFSETS: [f64; 17] = [
     0.0, 1e-16, -1e-16, 1e-14, -1e-14, 1e-12, -1e-12, 1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8,
@@ -29,6 +29,12 @@ fn orthant(shape: &PiecewisePolynomial, at: &[f64]) -> f64 {
         }
         _ => unreachable!("one to three faces"),
     }
+}
+
+/// Pairs of offsets below 10⁻⁶.
+fn small() -> impl Iterator<Item = [f64; 2]> {
+    let offsets = || OFFSETS.into_iter().filter(|x| x.abs() < 1e-6);
+    offsets().flat_map(move |x| offsets().map(move |y| [x, y]))
 }
 
 /// Turned by nothing and by a generic angle.
@@ -73,14 +79,12 @@ fn the_gradient_of_a_room() {
         let shape = kernel.shape();
         let (plane, line) = (super::planes::slope(shape, 0.0), on_line(shape, 0.0));
         let mut worst: f64 = 0.0;
-        for x in OFFSETS.into_iter().filter(|x| x.abs() < 1e-6) {
-            for y in OFFSETS.into_iter().filter(|y| y.abs() < 1e-6) {
-                for (angle, room) in &rooms {
-                    let sum = room.at(&of, turned([x, y, 4.0], *angle));
-                    let exact = [0.5 * plane + line * y, 0.5 * plane + line * x, 0.0];
-                    let difference = plus(sum.gradient, -1.0, turned(exact, *angle));
-                    worst = difference.iter().fold(worst, |worst, x| worst.max(x.abs()));
-                }
+        for [x, y] in small() {
+            for (angle, room) in &rooms {
+                let sum = room.at(&of, turned([x, y, 4.0], *angle));
+                let exact = [0.5 * plane + line * y, 0.5 * plane + line * x, 0.0];
+                let difference = plus(sum.gradient, -1.0, turned(exact, *angle));
+                worst = difference.iter().fold(worst, |worst, x| worst.max(x.abs()));
             }
         }
         assert_within(&kernel, worst, TOLERANCE);
@@ -128,17 +132,15 @@ fn faces_need_not_be_quite_planar() {
     });
     for (kernel, of) in kernels() {
         let mut worst: f64 = 0.0;
-        for x in OFFSETS.into_iter().filter(|x| x.abs() < 1e-6) {
-            for y in OFFSETS.into_iter().filter(|y| y.abs() < 1e-6) {
-                for (point, exact) in [
-                    ([x, 4.0, 4.0], 0.5),
-                    ([x, y, 4.0], 0.25),
-                    ([x, y, 0.0], 0.125),
-                    ([x, y, 1e-7], 0.125),
-                ] {
-                    for sum in [room.at(&of, point), room.at_by_triangles(&of, point)] {
-                        worst = worst.max((sum.gamma() - exact).abs());
-                    }
+        for [x, y] in small() {
+            for (point, exact) in [
+                ([x, 4.0, 4.0], 0.5),
+                ([x, y, 4.0], 0.25),
+                ([x, y, 0.0], 0.125),
+                ([x, y, 1e-7], 0.125),
+            ] {
+                for sum in [room.at(&of, point), room.at_by_triangles(&of, point)] {
+                    worst = worst.max((sum.gamma() - exact).abs());
                 }
             }
         }

@@ -3,9 +3,10 @@
 use sph_kernels::{Kernel, PiecewisePolynomial};
 use std::f64::consts::PI;
 
-use super::vector::{Vector, cross, dot, minus, normal, plus, unit};
 use super::{TOLERANCE, assert_within, kernels, quadrature};
+use crate::close;
 use crate::random::Random;
+use crate::vector::{Vector, cross, dot, minus, normal, plus, unit};
 
 /// The integrals over a triangle, in polar coordinates about the foot of the point (the origin).
 pub fn reference(shape: &PiecewisePolynomial, t: [Vector; 3], n: Vector) -> [f64; 2] {
@@ -27,9 +28,8 @@ pub fn reference(shape: &PiecewisePolynomial, t: [Vector; 3], n: Vector) -> [f64
         let [from, to] = [a, b].map(|x| dot(minus(x, foot), tangent));
         let mut cuts = vec![from, to];
         for knot in &shape.breaks[1..] {
-            let reach = (knot * knot - depth * depth - offset * offset)
-                .max(0.0)
-                .sqrt();
+            let reach2 = knot * knot - depth * depth - offset * offset;
+            let reach = reach2.max(0.0).sqrt();
             cuts.extend([-reach, reach].into_iter().filter(|y| *y > from && *y < to));
         }
         cuts.sort_by(f64::total_cmp);
@@ -62,10 +62,11 @@ fn published_numbers_come_out() {
         (two.kernel, 0.033275280825),
         (two.gamma, 0.028906372803),
     ] {
-        assert!((value - published).abs() < 3e-11, "{value} {published}");
+        close(value, published, 3e-11, "published");
     }
     let below = seen([0.1, 0.05, -0.5], small);
-    assert!((below.gamma + one.gamma).abs() < 1e-10 && (below.kernel - one.kernel).abs() < 1e-10);
+    close(below.gamma, -one.gamma, 1e-10, "γ below");
+    close(below.kernel, one.kernel, 1e-10, "∇γ below");
 }
 
 #[test]
@@ -107,14 +108,14 @@ fn moments_are_those_of_many_small_triangles() {
             let [u, v] = [1, 2].map(|k| minus(t[k], t[0]).map(|x| x / PARTS as f64));
             let at = |i: usize, j: usize| plus(plus(t[0], i as f64, u), j as f64, v);
             let mut sum = [0.0; 3];
+            let mut add = |[a, b, c]: [Vector; 3]| {
+                let centre = plus(plus(a, 1.0, b), 1.0, c).map(|x| x / 3.0);
+                sum = plus(sum, of.triangle([a, b, c], n).kernel, minus(centre, foot));
+            };
             for (i, j) in (0..PARTS).flat_map(|i| (0..PARTS - i).map(move |j| (i, j))) {
-                let lower = [at(i, j), at(i + 1, j), at(i, j + 1)];
-                let upper = [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-                let both = [(lower, true), (upper, i + j + 1 < PARTS)];
-                for (small, _) in both.into_iter().filter(|(_, there)| *there) {
-                    let centre =
-                        plus(plus(small[0], 1.0, small[1]), 1.0, small[2]).map(|x| x / 3.0);
-                    sum = plus(sum, of.triangle(small, n).kernel, minus(centre, foot));
+                add([at(i, j), at(i + 1, j), at(i, j + 1)]);
+                if i + j + 1 < PARTS {
+                    add([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
                 }
             }
             let whole = of.triangle(t, n);
@@ -123,11 +124,7 @@ fn moments_are_those_of_many_small_triangles() {
             largest = largest.max(whole.kernel);
         }
         // The sum itself is good to (1/40)² of a triangle.
-        assert!(
-            worst < 4e-4 * largest,
-            "{}: {worst:e} of {largest}",
-            kernel.name()
-        );
+        assert_within(&kernel, worst / largest, 4e-4);
     }
 }
 
@@ -139,7 +136,7 @@ fn lengths_scale_with_h() {
         let n = normal(t);
         let one = of(1.0).triangle(t, n);
         let small = of(1e-3).triangle(t.map(|c| c.map(|x| 1e-3 * x)), n);
-        assert!((one.gamma - small.gamma).abs() < 1e-13);
-        assert!((one.kernel - 1e-3 * small.kernel).abs() < 1e-13);
+        close(one.gamma, small.gamma, 1e-13, "γ");
+        close(one.kernel, 1e-3 * small.kernel, 1e-13, "∇γ");
     }
 }

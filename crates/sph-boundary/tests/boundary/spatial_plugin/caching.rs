@@ -1,6 +1,6 @@
 //! Geometry is found once for a state of particles and walls, and anew for every other state.
 
-use sph_boundary::{RigidMotion, Surface, WallSpec};
+use sph_boundary::RigidMotion;
 use sph_core::{Vect, fields};
 
 use crate::bench::{Bench, Random, moving, wide};
@@ -10,32 +10,32 @@ const SPACING: f64 = 0.4;
 /// No γ is this.
 const MARK: f64 = -7.0;
 
-fn solid() -> Surface {
-    block("block", [-0.8; 3], [0.8; 3])
-}
-
 /// A block that begins to rise after one second, among particles.
 fn bench() -> Bench<3> {
     let mut random = Random::new(9);
     let places = (0..800).map(|_| random.point(-2.5, 2.5));
-    let places = places.filter(|x: &Vect<3>| x.amax() > 1.0).collect();
-    Bench::new("usaw", &[specs()], SPACING, wide(), places)
+    around(places.filter(|x: &Vect<3>| x.amax() > 1.0).collect())
 }
 
-fn specs() -> WallSpec<3> {
+fn around(places: Vec<Vect<3>>) -> Bench<3> {
     let motion = RigidMotion {
         start: 1.0,
         ..RigidMotion::steady([0.0, 0.0, 0.05])
     };
-    moving(wall(solid()), motion)
+    let solid = block("block", [-0.8; 3], [0.8; 3]);
+    Bench::new(
+        "usaw",
+        &[moving(wall(solid), motion)],
+        SPACING,
+        wide(),
+        places,
+    )
 }
 
 /// Element, gradient and distance of every contact.
 fn contacts(bench: &Bench<3>) -> Vec<(u32, Vect<3>, f64)> {
-    let contacts = bench.world.walls.contacts.all();
-    contacts
-        .map(|c| (c.element, c.gradient, c.distance))
-        .collect()
+    let all = bench.world.walls.contacts.all();
+    all.map(|c| (c.element, c.gradient, c.distance)).collect()
 }
 
 /// Marks γ; whoever finds it anew wipes the marks off.
@@ -107,15 +107,14 @@ fn a_particle_out_of_reach_may_fly_without_anything_being_found_anew() {
 type Known = ([u64; 3], f64, Vec<(u32, Vect<3>, f64)>);
 
 fn known(bench: &Bench<3>) -> Vec<Known> {
+    let of_particle = |(i, x): (usize, &Vect<3>)| {
+        let contacts = bench.world.walls.contacts.of_particle(i).iter();
+        let contacts = contacts.map(|c| (c.element, c.gradient, c.distance));
+        let place = [0, 1, 2].map(|k| f64::to_bits(x[k]));
+        (place, bench.gamma()[i], contacts.collect())
+    };
     let particles = bench.positions().iter().enumerate();
-    let mut known: Vec<Known> = particles
-        .map(|(i, x)| {
-            let contacts = bench.world.walls.contacts.of_particle(i).iter();
-            let contacts = contacts.map(|c| (c.element, c.gradient, c.distance));
-            let place = [0, 1, 2].map(|k| f64::to_bits(x[k]));
-            (place, bench.gamma()[i], contacts.collect())
-        })
-        .collect();
+    let mut known: Vec<Known> = particles.map(of_particle).collect();
     known.sort_by_key(|(place, ..)| *place);
     known
 }
@@ -169,13 +168,7 @@ fn rows_that_are_kept_give_what_new_ones_would() {
         sorted += usize::from(*bench.world.free.get(fields::IDENTITY).unwrap() != before);
         let time = 1.0 + f64::from(step);
         bench.move_to(time);
-        let mut new = Bench::new(
-            "usaw",
-            &[specs()],
-            SPACING,
-            wide(),
-            bench.positions().to_vec(),
-        );
+        let mut new = around(bench.positions().to_vec());
         new.move_to(time);
         for (kept, new) in known(&bench).iter().zip(&known(&new)) {
             assert_eq!(kept, new);

@@ -1,11 +1,14 @@
 //! γ and ∇γ of particles next to a plane and in the corner of a box, against closed forms.
 
-use sph_boundary::WallSpec;
+use sph_boundary::{GammaSum, Renormalisation3d, WallSpec};
 use sph_core::{Vect, fields};
-use sph_kernels::{Kernel, wendland_c2};
+use sph_kernels::wendland_c2;
 use sph_neighbours::Domain;
 
 use crate::bench::{Bench, wide};
+use crate::close;
+use crate::spatial::planes::PLANE;
+use crate::spatial::solid::Solid;
 use crate::spatial_plugin::shapes::{floor, tank, wall};
 
 /// h = 1.
@@ -26,20 +29,10 @@ fn over_a_floor(heights: &[f64]) -> Bench<3> {
 
 #[test]
 fn over_a_plane_gamma_and_its_gradient_are_as_printed_to_nine_digits() {
-    let table = [
-        (0.1, 0.737026343, 0.574565568),
-        (0.25, 0.673192978, 0.680934578),
-        (0.5, 0.489440918, 0.827583313),
-        (0.75, 0.286102295, 0.924097210),
-        (1.0, 0.128906250, 0.974609375),
-        (1.25, 0.040323257, 0.994372994),
-        (1.5, 0.006774902, 0.999397278),
-    ];
-    let heights: Vec<f64> = table.iter().map(|row| row.0).collect();
-    let bench = over_a_floor(&heights);
-    for (k, (z, slope, gamma)) in table.into_iter().enumerate() {
+    let bench = over_a_floor(&PLANE.map(|row| row[0]));
+    for (k, [z, slope, gamma]) in PLANE.into_iter().enumerate() {
         let i = bench.at(Vect::from([0.7 + 0.9 * k as f64, 7.9, z]));
-        assert!((bench.gamma()[i] - gamma).abs() < 6e-10, "γ at {z}");
+        close(bench.gamma()[i], gamma, 6e-10, z);
         let gradient = bench.gradient(i);
         assert!((gradient - Vect::z() * slope).norm() < 6e-10, "∇γ at {z}");
         for contact in bench.world.walls.contacts.of_particle(i) {
@@ -55,61 +48,10 @@ fn beyond_the_support_gamma_is_one_and_not_nearly_one() {
     assert!(bench.world.walls.contacts.is_empty());
 }
 
-/// Nodes and weights of Gauss' rule of five points on (−1, 1).
-fn gauss() -> [(f64, f64); 5] {
-    let root = |sign: f64| (5.0 + sign * 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0;
-    let weight = |sign: f64| (322.0 - sign * 13.0 * 70.0_f64.sqrt()) / 900.0;
-    let (inner, outer) = (root(-1.0), root(1.0));
-    let (heavy, light) = (weight(-1.0), weight(1.0));
-    [
-        (-outer, light),
-        (-inner, heavy),
-        (0.0, 128.0 / 225.0),
-        (inner, heavy),
-        (outer, light),
-    ]
-}
-
-/// Nodes and weights on panels of an eighth from `from` to `to`; a panel ends at 0.
-fn rule(from: f64, to: f64) -> Vec<(f64, f64)> {
-    let mut cuts = vec![from];
-    let mut next = (from / 0.125).floor() * 0.125 + 0.125;
-    while next < to {
-        cuts.push(next);
-        next += 0.125;
-    }
-    cuts.push(to);
-    let panel = |pair: &[f64]| {
-        let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
-        gauss().map(|(x, w)| (middle + half * x, half * w))
-    };
-    cuts.windows(2).flat_map(panel).collect()
-}
-
-/// γ and ∇γ at the distances `d` from three faces of a large box, by quadrature.
-fn in_a_corner(d: [f64; 3]) -> (f64, Vect<3>) {
-    let kernel = wendland_c2().sampler(3, 1.0);
-    let w = |r2: f64| kernel.at(r2.sqrt()).0;
-    let rules = d.map(|d| rule(-d.min(2.0), 2.0));
-    let mut gamma = 0.0;
-    for (x, wx) in &rules[0] {
-        for (y, wy) in &rules[1] {
-            let flat = x * x + y * y;
-            if flat < 4.0 {
-                let line = rules[2].iter().map(|(z, wz)| wz * w(flat + z * z));
-                gamma += wx * wy * line.sum::<f64>();
-            }
-        }
-    }
-    let gradient = Vect::from_fn(|k, _| {
-        let (a, b) = (&rules[(k + 1) % 3], &rules[(k + 2) % 3]);
-        let row = |(x, wx): &(f64, f64)| {
-            let at = |(y, wy): &(f64, f64)| wy * w(d[k] * d[k] + x * x + y * y);
-            wx * b.iter().map(at).sum::<f64>()
-        };
-        a.iter().map(row).sum()
-    });
-    (gamma, gradient)
+/// γ and ∇γ in a box of 8 m, face by face: those of the definitions by the tests of the integrals.
+fn in_a_box(place: [f64; 3]) -> GammaSum<3> {
+    let integrals = Renormalisation3d::new(wendland_c2().shape(), 1.0).expect("a kernel");
+    Solid::new(Solid::box_of([[0.0, 8.0]; 3])).at(&integrals, place)
 }
 
 #[test]
@@ -125,20 +67,10 @@ fn in_the_corner_of_a_box_gamma_and_its_gradient_are_the_integrals_to_1e_8() {
     let positions = places.map(Vect::from).to_vec();
     let bench = Bench::new("usaw", &walls, SPACING, wide(), positions);
     for place in places {
-        let i = bench.at(Vect::from(place));
-        let (gamma, gradient) = in_a_corner(place);
-        let found = (bench.gamma()[i], bench.gradient(i));
-        println!(
-            "{place:?}: {:.1e} {:.1e}",
-            found.0 - gamma,
-            (found.1 - gradient).norm()
-        );
-        assert!(
-            (found.0 - gamma).abs() < 1e-8,
-            "γ at {place:?}: {}",
-            found.0
-        );
-        assert!((found.1 - gradient).norm() < 1e-8, "∇γ at {place:?}");
+        let (i, expected) = (bench.at(Vect::from(place)), in_a_box(place));
+        close(bench.gamma()[i], expected.gamma(), 1e-8, place);
+        let off = bench.gradient(i) - Vect::from(expected.gradient);
+        assert!(off.norm() < 1e-8, "∇γ at {place:?} is off by {off}");
     }
 }
 
@@ -147,7 +79,7 @@ fn the_contact_of_a_face_is_the_integral_over_it() {
     let place = Vect::from([0.4, 1.3, 0.7]);
     let walls = [WallSpec::at_rest(wall(tank([0.0; 3], [8.0; 3])))];
     let bench = Bench::new("usaw", &walls, SPACING, wide(), vec![place]);
-    let (_, expected) = in_a_corner([0.4, 1.3, 0.7]);
+    let expected = in_a_box(place.into()).gradient;
     let elements = &bench.world.walls.elements;
     for k in 0..3 {
         let of_face = bench.world.walls.contacts.of_particle(0).iter();
@@ -155,13 +87,9 @@ fn the_contact_of_a_face_is_the_integral_over_it() {
         let contacts: Vec<_> = of_face.collect();
         let sum: Vect<3> = contacts.iter().map(|c| c.gradient).sum();
         assert_eq!(contacts.len(), 1, "contacts of a face");
-        assert!((sum[k] - expected[k]).abs() < 1e-8);
+        close(sum[k], expected[k], 1e-8, k);
         assert_eq!(sum[(k + 1) % 3], 0.0);
-        assert!(
-            contacts
-                .iter()
-                .all(|c| (c.distance - place[k]).abs() < 1e-14)
-        );
+        close(contacts[0].distance, place[k], 1e-14, k);
     }
 }
 

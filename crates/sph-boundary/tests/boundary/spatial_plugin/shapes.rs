@@ -2,18 +2,12 @@
 
 use sph_boundary::{Drawing, Surface};
 
-use crate::surface::shapes::{self, surface};
+use crate::surface::shapes;
 pub use crate::surface::shapes::{block, tank};
 
 /// A flat square of the plane z = 0, the fluid above it.
 pub fn floor(low: f64, high: f64) -> Surface {
-    let points = vec![
-        [low, low, 0.0],
-        [high, low, 0.0],
-        [high, high, 0.0],
-        [low, high, 0.0],
-    ];
-    surface("floor", points, vec![[0, 1, 2], [0, 2, 3]])
+    shapes::floor([low; 2], [high; 2])
 }
 
 /// A square pyramid that stands on the plane z = 0, the fluid around it.
@@ -25,16 +19,9 @@ pub fn pyramid(half: f64, height: f64) -> Surface {
 ///
 /// The polygon is star-shaped from its first corner and clockwise.
 pub fn prism(name: &str, polygon: &[[f64; 2]], y: [f64; 2]) -> Surface {
-    let n = polygon.len() as u32;
-    let layer = |y: f64| polygon.iter().map(move |p| [p[0], y, p[1]]);
-    let points = layer(y[0]).chain(layer(y[1])).collect();
-    let side = |i: u32| {
-        let j = (i + 1) % n;
-        [[i, j, n + j], [i, n + j, n + i]]
-    };
-    let cap = |i: u32| [[0, i + 1, i], [n, n + i, n + i + 1]];
-    let triangles = (0..n).flat_map(side).chain((1..n - 1).flat_map(cap));
-    surface(name, points, triangles.collect())
+    let mut prism = shapes::prism(name, polygon, y, true);
+    prism.points.iter_mut().for_each(|p| p.swap(1, 2));
+    prism
 }
 
 pub fn wall(surface: Surface) -> Drawing {

@@ -1,87 +1,50 @@
 //! What the wall points stand for: θ times their part of the wall.
 
-use sph_boundary::WallSpec;
+use sph_boundary::{Surface, WallSpec};
 use sph_core::Vect;
 
 use crate::bench::{Bench, wide};
+use crate::close;
 use crate::spatial_plugin::shapes::{block, tank, wall};
 
 const SPACING: f64 = 0.25;
 /// Spacings along an edge of the box.
 const N: usize = 8;
 
-fn boxed(surface: sph_boundary::Surface) -> Bench<3> {
+/// Edge of the box, m.
+const SIZE: f64 = N as f64 * SPACING;
+
+/// Checks the shares of points on faces, edges and corners of a box; returns their sum.
+fn sum_of(surface: Surface, shares: [f64; 3]) -> f64 {
+    let walls = [WallSpec::at_rest(wall(surface))];
     let far = vec![Vect::repeat(1.0)];
-    Bench::new(
-        "usaw",
-        &[WallSpec::at_rest(wall(surface))],
-        SPACING,
-        wide(),
-        far,
-    )
-}
-
-/// How many coordinates are on a face of the box.
-fn faces(x: &Vect<3>) -> usize {
-    let size = N as f64 * SPACING;
-    x.iter().filter(|c| **c == 0.0 || **c == size).count()
-}
-
-fn sums(bench: &Bench<3>) -> [(usize, f64); 4] {
+    let bench = Bench::<3>::new("usaw", &walls, SPACING, wide(), far);
     let points = &bench.world.walls.points;
-    let mut sums = [(0, 0.0); 4];
+    let mut counts = [0; 3];
     for (x, share) in points.position.iter().zip(&points.share) {
-        let sum = &mut sums[faces(x)];
-        (sum.0, sum.1) = (sum.0 + 1, sum.1 + share);
+        let faces = x.iter().filter(|c| **c == 0.0 || **c == SIZE).count();
+        close(*share, shares[faces - 1], 1e-14, x);
+        counts[faces - 1] += 1;
     }
-    sums
-}
-
-#[test]
-fn in_a_box_faces_have_a_half_edges_a_quarter_and_corners_an_eighth_of_three_quarters() {
-    let size = N as f64 * SPACING;
-    let bench = boxed(tank([0.0; 3], [size; 3]));
-    let points = &bench.world.walls.points;
-    for (x, share) in points.position.iter().zip(&points.share) {
-        match faces(x) {
-            1 => assert!((share - 0.5).abs() < 1e-14, "{x}: {share}"),
-            2 => assert!((share - 0.25).abs() < 1e-14, "{x}: {share}"),
-            // A corner has three quarters of a square of wall.
-            _ => assert!((share - 0.125 * 0.75).abs() < 1e-14, "{x}: {share}"),
-        }
-    }
-    let [inside, flat, edge, corner] = sums(&bench);
     let n = N - 1;
-    assert_eq!(
-        [inside.0, flat.0, edge.0, corner.0],
-        [0, 6 * n * n, 12 * n, 8]
-    );
-    assert!(
-        (corner.1 - 8.0 * 0.125 * 0.75).abs() < 1e-13,
-        "{}",
-        corner.1
-    );
+    assert_eq!(counts, [6 * n * n, 12 * n, 8]);
+    points.share.iter().sum()
 }
 
 /// The cells of free particles inside and the shares on the wall fill the box.
 #[test]
-fn free_cells_and_shares_fill_the_box_but_for_a_quarter_of_a_cell_at_its_corners() {
-    let size = N as f64 * SPACING;
-    let total: f64 = sums(&boxed(tank([0.0; 3], [size; 3])))
-        .iter()
-        .map(|s| s.1)
-        .sum();
+fn in_a_box_faces_have_a_half_edges_a_quarter_and_corners_an_eighth_of_three_quarters() {
+    // A corner has three quarters of a square of wall.
+    let total = sum_of(tank([0.0; 3], [SIZE; 3]), [0.5, 0.25, 0.125 * 0.75]);
     let cells = (N as f64).powi(3) - (N as f64 - 1.0).powi(3);
     // Eight corners with 3/32 instead of 1/8.
-    assert!((total - (cells - 0.25)).abs() < 1e-12, "{total} of {cells}");
+    close(total, cells - 0.25, 1e-12, "in all");
 }
 
 #[test]
 fn around_a_block_edges_have_three_quarters_and_corners_seven_eighths_of_three_quarters() {
-    let size = N as f64 * SPACING;
-    let [_, flat, edge, corner] = sums(&boxed(block("block", [0.0; 3], [size; 3])));
-    let per_point = |(count, sum): (usize, f64)| sum / count as f64;
-    assert!((per_point(flat) - 0.5).abs() < 1e-14);
-    assert!((per_point(edge) - 0.75).abs() < 1e-14);
-    assert!((per_point(corner) - 0.875 * 0.75).abs() < 1e-14);
+    sum_of(
+        block("block", [0.0; 3], [SIZE; 3]),
+        [0.5, 0.75, 0.875 * 0.75],
+    );
 }

@@ -1,9 +1,11 @@
 //! Bodies that touch: what they have in common is no boundary of the fluid.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use sph_boundary::{Mesh, PeriodicBox, Surface};
 
+use crate::close;
 use crate::surface::shapes::*;
 
 /// Solid angle between three directions: van Oosterom and Strackee (1983).
@@ -16,18 +18,24 @@ fn solid_angle(a: Point, b: Point, c: Point) -> f64 {
 
 /// Every place of the wall is met from both sides: closed, and no two nodes at one place.
 fn check_closed(mesh: &Mesh<3>) {
-    assert!(mesh.free_edges.is_empty());
-    assert!(leak(mesh) < 1e-12, "leak {}", leak(mesh));
-    let mut places: Vec<_> = mesh
-        .nodes
-        .iter()
-        .map(|n| n.position.map(|x| (x * 1e7).round() as i64))
+    check_closed_area(mesh);
+    close(leak(mesh), 0.0, 1e-12, "leak");
+    let positions = mesh.nodes.iter().map(|n| n.position);
+    let places: BTreeSet<_> = positions
+        .map(|x| x.map(|x| (x * 1e7).round() as i64))
         .collect();
-    places.sort_unstable();
-    places.dedup();
     assert_eq!(places.len(), mesh.nodes.len());
+}
+
+fn check_closed_area(mesh: &Mesh<3>) {
+    assert!(mesh.free_edges.is_empty());
     let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
-    assert!((sizes * mesh.spacing.powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
+    close(
+        sizes * mesh.spacing.powi(2),
+        area(mesh),
+        1e-9 * area(mesh),
+        "sizes",
+    );
 }
 
 #[test]
@@ -41,12 +49,7 @@ fn a_pyramid_stands_on_the_floor() {
     check_closed(&mesh);
     let slant = (half * half + height * height).sqrt();
     let expected = 2.0 * 36.0 + 4.0 * 24.0 - 4.0 * half * half + 4.0 * half * slant;
-    println!(
-        "area {} of {expected}, {} triangles",
-        area(&mesh),
-        mesh.elements.len()
-    );
-    assert!((area(&mesh) - expected).abs() < 1e-12 * expected);
+    close(area(&mesh), expected, 1e-12 * expected, "area");
     let floor = mesh.faces.iter().find(|f| f.normal[2] > 0.999).unwrap();
     assert_eq!(floor.edges.len(), 8, "a square with a square hole");
     assert_eq!(mesh.faces.len(), 6 + 4);
@@ -56,27 +59,17 @@ fn a_pyramid_stands_on_the_floor() {
     for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
         let theta = theta_at(&mesh, [3.0 + x * half, 3.2 + y * half, 0.0]);
         assert_eq!(theta.len(), 1);
-        assert!(
-            (theta[0] - expected).abs() < 1e-14,
-            "{theta:?} of {expected}"
-        );
+        close(theta[0], expected, 1e-14, (x, y));
     }
     // At the tip: all but the pyramid.
     let down = |x: f64, y: f64| [x * half, y * half, -height];
     let cone = 2.0 * solid_angle(down(-1.0, -1.0), down(1.0, -1.0), down(1.0, 1.0));
     let tip = theta_at(&mesh, [3.0, 3.2, height]);
-    assert!((tip[0] - (1.0 - cone / (4.0 * PI))).abs() < 1e-14);
+    close(tip[0], 1.0 - cone / (4.0 * PI), 1e-14, "at the tip");
     // Quality: no element far smaller than the others.
-    let smallest = mesh
-        .elements
-        .iter()
-        .map(|t| t.measure)
-        .fold(f64::INFINITY, f64::min);
-    println!(
-        "θ at the base {expected}, at the tip {}; smallest triangle {smallest} m²",
-        tip[0]
-    );
-    assert!(smallest > 0.05 * 0.25 * 0.25);
+    let measures = mesh.elements.iter().map(|t| t.measure);
+    let smallest = measures.fold(f64::INFINITY, f64::min);
+    assert!(smallest > 0.05 * 0.25 * 0.25, "{smallest} m²");
 }
 
 #[test]
@@ -99,10 +92,7 @@ fn a_block_in_a_corner_touches_three_walls() {
     ];
     for (place, theta) in expected {
         assert_eq!(theta_at(&mesh, place).len(), 1);
-        assert!(
-            (theta_at(&mesh, place)[0] - theta).abs() < 1e-14,
-            "{place:?}"
-        );
+        close(theta_at(&mesh, place)[0], theta, 1e-14, place);
     }
     assert!(theta_at(&mesh, [0.0; 3]).is_empty());
     // All lengths are multiples of the spacing: lattice everywhere; the 2 + 4 cells in the middle of three are quartered.
@@ -190,39 +180,28 @@ fn blocks_that_touch_in_an_edge_only() {
 fn walls_drawn_one_by_one_are_joined() {
     // Six sheets, one of them finer than its neighbours.
     let whole = tank([0.0; 3], [2.0; 3]);
-    let mut walls: Vec<Surface> = (0..6)
-        .map(|side| {
-            let name = format!("side {side}");
-            surface(
-                &name,
-                whole.points.clone(),
-                whole.triangles[2 * side..2 * side + 2].to_vec(),
-            )
-        })
-        .collect();
+    let side = |(side, triangles): (usize, &[[u32; 3]])| Surface {
+        name: format!("side {side}"),
+        triangles: triangles.to_vec(),
+        ..whole.clone()
+    };
+    let sides = whole.triangles.chunks(2).enumerate();
+    let mut walls: Vec<Surface> = sides.map(side).collect();
     let joined = mesh(&walls, 0.5);
     check_closed(&joined);
-    assert_eq!(joined.nodes.len(), mesh(&[whole], 0.5).nodes.len());
+    let nodes = mesh(std::slice::from_ref(&whole), 0.5).nodes.len();
+    assert_eq!(joined.nodes.len(), nodes);
     walls[0] = walls[0].clone().reversed();
     let refused = Mesh::<3>::build(&walls, &[0; 6], 0.5, &PeriodicBox::none());
     let message = refused.unwrap_err().to_string();
-    assert!(
-        message.contains("put the fluid on opposite sides: reverse"),
-        "{message}"
-    );
-    assert!(
-        message.starts_with("walls `side 0` and `side "),
-        "{message}"
-    );
+    let named = message.starts_with("walls `side 0` and `side ");
+    let why = message.contains("put the fluid on opposite sides: reverse");
+    assert!(named && why, "{message}");
 }
 
 #[test]
 fn a_block_across_the_seam_of_a_periodic_floor() {
-    let floor = surface(
-        "floor",
-        vec![[0.0; 3], [4.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 3.0, 0.0]],
-        vec![[0, 1, 2], [0, 2, 3]],
-    );
+    let floor = floor([0.0; 2], [4.0, 3.0]);
     let body = block("body", [3.5, 1.0, 0.0], [4.5, 2.0, 1.0]);
     let domain = periodic([0.0; 3], [4.0, 3.0, 2.0], [true, true, false]);
     let mesh = mesh_in(&[floor, body], 0.25, &domain);
@@ -231,12 +210,6 @@ fn a_block_across_the_seam_of_a_periodic_floor() {
     assert!(!mesh.contains([0.25, 1.5, 0.5]) && !mesh.contains([3.75, 1.5, 0.5]));
     assert!(mesh.contains([0.75, 1.5, 0.5]) && mesh.contains([0.25, 1.5, 1.5]));
     assert!(!mesh.contains([0.75, 1.5, -0.5]));
-}
-
-fn check_closed_area(mesh: &Mesh<3>) {
-    assert!(mesh.free_edges.is_empty());
-    let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
-    assert!((sizes * mesh.spacing.powi(2) - area(mesh)).abs() < 1e-9 * area(mesh));
 }
 
 #[test]
@@ -260,9 +233,11 @@ fn a_block_turned_on_another_one() {
         let common = mesh.elements.iter().filter(|t| t.normal[2].abs() > 0.5);
         let common = common.filter(|t| (t.centre[2] - 1.0).abs() < 1e-9);
         let both: f64 = common.map(|t| t.measure * t.normal[2]).sum();
-        assert!(
-            both.abs() < 1e-9,
-            "as much of one faces up as of the other down"
+        close(
+            both,
+            0.0,
+            1e-9,
+            "as much of one faces up as of the other down",
         );
         assert!(mesh.nodes.iter().all(|n| n.theta > 0.0 && n.theta < 1.0));
     }

@@ -1,7 +1,8 @@
 //! Boxes, spheres and pipes: the lattice, θ, areas.
 
-use sph_boundary::Pose;
+use sph_boundary::{Mesh, PeriodicBox, Pose};
 
+use crate::close;
 use crate::surface::shapes::*;
 
 #[test]
@@ -16,15 +17,12 @@ fn a_tank_gets_the_square_lattice() {
         let sides = node.position.iter().filter(|x| **x == 0.0 || **x == 4.0);
         assert_eq!(node.theta, [0.5, 0.25, 0.125][sides.count() - 1]);
     }
-    assert!(
-        mesh.elements
-            .iter()
-            .all(|t| (t.measure - 0.125).abs() < 1e-15)
-    );
-    assert!((area(&mesh) - 96.0).abs() < 1e-12);
+    let measures = mesh.elements.iter().map(|t| t.measure);
+    measures.for_each(|area| close(area, 0.125, 1e-15, "half a cell"));
+    close(area(&mesh), 96.0, 1e-12, "area");
     assert!(leak(&mesh) < 1e-13);
-    let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
-    assert!((sizes - 384.0).abs() < 1e-9);
+    let sizes = mesh.nodes.iter().map(|n| n.size);
+    close(sizes.sum(), 384.0, 1e-9, "sizes");
     // Inside a face all nodes have the same share.
     let flat = mesh.nodes.iter().filter(|n| n.theta == 0.5);
     assert!(flat.clone().all(|n| (n.size - 1.0).abs() < 1e-14));
@@ -57,20 +55,11 @@ fn how_a_face_is_drawn_does_not_matter() {
     // The same tank with every face drawn as a fan about its middle, with points along its edges.
     let plain = tank([0.0; 3], [4.0; 3]);
     let fine = mesh(std::slice::from_ref(&plain), 1.0);
-    let drawn = surface(
-        "tank",
-        fine.nodes.iter().map(|n| n.position).collect(),
-        fine.elements
-            .iter()
-            .map(|t| t.nodes.map(|n| n as u32))
-            .collect(),
-    );
-    let again = mesh(&[drawn], 0.5);
-    let direct = mesh(&[plain], 0.5);
-    assert_eq!(
-        (again.faces.len(), again.nodes.len()),
-        (6, direct.nodes.len())
-    );
+    let points = fine.nodes.iter().map(|n| n.position).collect();
+    let triangles = fine.elements.iter().map(|t| t.nodes.map(|n| n as u32));
+    let again = mesh(&[surface("tank", points, triangles.collect())], 0.5);
+    assert_eq!(again.faces.len(), 6);
+    assert_eq!(again.nodes.len(), mesh(&[plain], 0.5).nodes.len());
     assert!(again.faces.iter().all(|f| f.edges.len() == 4));
 }
 
@@ -104,30 +93,21 @@ fn a_pipe_closes_through_periodicity() {
     let mesh = mesh_in(std::slice::from_ref(&pipe), 0.25, &domain);
     assert!(mesh.free_edges.is_empty());
     // One part across every side, eight along the period.
-    assert_eq!(
-        (mesh.nodes.len(), mesh.elements.len()),
-        (24 * 8, 24 * 8 * 2)
-    );
-    let expected = 0.5 - 1.0 / 24.0;
-    assert!(
-        mesh.nodes
-            .iter()
-            .all(|n| (n.theta - expected).abs() < 1e-14)
-    );
+    let counts = [mesh.nodes.len(), mesh.elements.len()];
+    assert_eq!(counts, [24 * 8, 24 * 8 * 2]);
+    let thetas = mesh.nodes.iter().map(|n| n.theta);
+    thetas.for_each(|theta| close(theta, 0.5 - 1.0 / 24.0, 1e-14, "θ"));
+    // The last ring meets the first one's nodes.
     let moved = mesh.elements.iter().filter(|t| t.images != [[0; 3]; 3]);
-    assert_eq!(
-        moved.count(),
-        24 * 2,
-        "the last ring meets the first one's nodes"
-    );
+    assert_eq!(moved.count(), 24 * 2);
     let side = 2.0 * (std::f64::consts::PI / 24.0).sin();
-    assert!((area(&mesh) - 24.0 * 2.0 * side).abs() < 1e-12);
+    close(area(&mesh), 24.0 * 2.0 * side, 1e-12, "area");
     let mut mesh = mesh;
-    mesh.move_walls(&[Pose {
+    let along = Pose {
         translation: [0.0, 0.0, 0.3],
         ..Pose::default()
-    }])
-    .unwrap();
+    };
+    mesh.move_walls(&[along]).unwrap();
     let turned = mesh.move_walls(&[Pose::turned_about([0.0, 0.0, 1.0], 0.1, [0.0; 3])]);
     assert_eq!(
         turned.unwrap_err().to_string(),
@@ -140,20 +120,15 @@ fn a_pipe_closes_through_periodicity() {
 
 #[test]
 fn a_floor_of_two_periods_has_no_edge() {
-    let floor = surface(
-        "floor",
-        vec![[0.0; 3], [4.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 3.0, 0.0]],
-        vec![[0, 1, 2], [0, 2, 3]],
-    );
+    let floor = floor([0.0; 2], [4.0, 3.0]);
     let domain = periodic([0.0; 3], [4.0, 3.0, 2.0], [true, true, false]);
     let mesh = mesh_in(&[floor], 0.5, &domain);
     assert!(mesh.free_edges.is_empty());
     assert_eq!((mesh.nodes.len(), mesh.elements.len()), (48, 96));
-    assert!(
-        mesh.nodes
-            .iter()
-            .all(|n| n.theta == 0.5 && (n.size - 1.0).abs() < 1e-14)
-    );
+    for node in &mesh.nodes {
+        assert_eq!(node.theta, 0.5);
+        close(node.size, 1.0, 1e-14, node.position);
+    }
 }
 
 #[test]
@@ -162,39 +137,29 @@ fn walls_of_a_group_move_together() {
     let body = block("body", [1.0; 3], [2.0; 3]);
     let lid = block("lid", [1.0, 1.0, 2.0], [2.0, 2.0, 3.0]);
     let walls = [tank, body, lid];
-    let mut mesh =
-        sph_boundary::Mesh::<3>::build(&walls, &[0, 1, 1], 0.5, &sph_boundary::PeriodicBox::none())
-            .unwrap();
+    let mut mesh = Mesh::<3>::build(&walls, &[0, 1, 1], 0.5, &PeriodicBox::none()).unwrap();
     let before = mesh.clone();
     let turn = Pose {
         translation: [0.25, 0.0, 0.5],
         ..Pose::turned_about([0.0, 0.0, 1.0], 0.5, [1.5, 1.5, 1.5])
     };
     let rest = Pose::default();
+    let refused = mesh.move_walls(&[rest, turn, rest]).unwrap_err();
     assert_eq!(
-        mesh.move_walls(&[rest, turn, rest])
-            .unwrap_err()
-            .to_string(),
+        refused.to_string(),
         "walls `body` and `lid` move together and cannot be given different motions"
     );
     mesh.move_walls(&[rest, turn, turn]).unwrap();
+    let poses = [rest, turn, turn];
     for (a, b) in before.nodes.iter().zip(&mesh.nodes) {
-        let expected = if a.wall == 0 {
-            a.position
-        } else {
-            turn.map()(a.position)
-        };
+        let expected = poses[a.wall].map()(a.position);
         assert_eq!((b.position, b.theta), (expected, a.theta));
     }
     for (a, b) in before.elements.iter().zip(&mesh.elements) {
-        assert!((a.measure - b.measure).abs() < 1e-15);
-        let turned = if a.wall == 0 {
-            a.normal
-        } else {
-            turn.turned(a.normal)
-        };
-        assert!(norm(sub(b.normal, turned)) < 1e-14);
-        assert!(norm(sub(b.normal, mesh.faces[b.face].normal)) < 1e-14);
+        close(a.measure, b.measure, 1e-15, "area");
+        let turned = poses[a.wall].turned(a.normal);
+        assert!(norm(minus(b.normal, turned)) < 1e-14);
+        assert!(norm(minus(b.normal, mesh.faces[b.face].normal)) < 1e-14);
     }
     assert!(!mesh.contains([1.75, 1.5, 2.9]) && mesh.contains([1.75, 1.5, 1.4]));
     mesh.move_walls(&[rest, rest, rest]).unwrap();

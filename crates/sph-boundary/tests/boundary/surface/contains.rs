@@ -2,12 +2,13 @@
 
 use sph_boundary::{Mesh, PeriodicBox};
 
+use crate::close;
 use crate::surface::shapes::*;
 
 /// 10⁴ random points and the lattice points of the mesh, which its rays hit in edges and nodes.
 fn check(mesh: &Mesh<3>, low: Point, high: Point, fluid: impl Fn(Point) -> Option<bool>) {
     let mut random = Random(42);
-    let mut points: Vec<Point> = (0..10_000).map(|_| random.point(low, high)).collect();
+    let mut points: Vec<Point> = (0..10_000).map(|_| random.within(low, high)).collect();
     let nodes: Vec<Point> = mesh.nodes.iter().map(|n| n.position).collect();
     for node in nodes.iter().step_by(nodes.len() / 500 + 1) {
         for other in nodes.iter().step_by(nodes.len() / 20 + 1) {
@@ -53,16 +54,13 @@ fn a_box_with_a_pyramid() {
 #[test]
 fn an_icosphere() {
     let ball = icosphere(4, 1.0);
-    let faces: Vec<[Point; 3]> = ball
-        .triangles
-        .iter()
-        .map(|t| t.map(|c| ball.points[c as usize]))
-        .collect();
+    let faces = ball.triangles.iter();
+    let faces: Vec<_> = faces.map(|t| t.map(|c| ball.points[c as usize])).collect();
     // Convex: inside of all planes.
     let height = |p: Point| {
         let over = faces.iter().map(|[a, b, c]| {
-            let n = cross(sub(*b, *a), sub(*c, *a));
-            dot(sub(p, *a), n) / norm(n)
+            let n = cross(minus(*b, *a), minus(*c, *a));
+            dot(minus(p, *a), n) / norm(n)
         });
         over.fold(f64::NEG_INFINITY, f64::max)
     };
@@ -94,21 +92,15 @@ fn an_l_shaped_prism() {
         walls.triangles.extend([[3, b, a], [9, 6 + a, 6 + b]]);
     }
     let fluid = |p: Point| {
-        let on = [0.0, 1.0, 2.0, 3.0]
-            .iter()
-            .any(|x| p.iter().any(|q| (q - x).abs() < 1e-9));
+        let on = p.iter().any(|q| (q - q.round()).abs() < 1e-9);
         let solid = in_box(p, [0.0; 3], [3.0, 1.0, 1.0]) || in_box(p, [0.0; 3], [1.0, 2.0, 1.0]);
         (!on).then_some(!solid)
     };
     let mesh = mesh(&[walls], 0.25);
     assert_eq!(mesh.faces.len(), 8);
-    assert!(
-        mesh.elements
-            .iter()
-            .all(|t| (t.measure - 0.03125).abs() < 1e-15),
-        "a lattice"
-    );
-    assert!((theta_at(&mesh, [1.0, 1.0, 1.0])[0] - 0.625).abs() < 1e-14);
+    let measures = mesh.elements.iter().map(|t| t.measure);
+    measures.for_each(|area| close(area, 0.03125, 1e-15, "a lattice"));
+    close(theta_at(&mesh, [1.0; 3])[0], 0.625, 1e-14, "θ");
     check(&mesh, [-0.5; 3], [3.5, 2.5, 1.5], fluid);
 }
 
@@ -116,7 +108,7 @@ fn an_l_shaped_prism() {
 fn a_periodic_pipe() {
     let ring = polygon(24, 1.0);
     let apothem = (std::f64::consts::PI / 24.0).cos();
-    let inside = |x: f64, y: f64| {
+    let inside = |[x, y, _]: Point| {
         let facet = std::f64::consts::TAU / 24.0;
         let angle = y.atan2(x).rem_euclid(facet) - 0.5 * facet;
         let height = x.hypot(y) * angle.cos() - apothem;
@@ -125,13 +117,10 @@ fn a_periodic_pipe() {
     let pipe = prism("pipe", &ring, [0.0, 2.0], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [false, false, true]);
     let along_z = mesh_in(std::slice::from_ref(&pipe), 0.25, &domain);
-    check(&along_z, [-1.4, -1.4, -0.5], [1.4, 1.4, 2.5], |p| {
-        inside(p[0], p[1])
-    });
     // All axes periodic: the box is all there is.
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true; 3]);
     let all = mesh_in(&[pipe], 0.25, &domain);
-    check(&all, [-1.4, -1.4, -0.5], [1.4, 1.4, 2.5], |p| {
-        inside(p[0], p[1])
-    });
+    for mesh in [along_z, all] {
+        check(&mesh, [-1.4, -1.4, -0.5], [1.4, 1.4, 2.5], &inside);
+    }
 }

@@ -1,6 +1,6 @@
 //! Triangles near a point, and the nearest place on them.
 
-use sph_boundary::{Feature, Grid, Mesh, NearElement, NearRows, SeenElement};
+use sph_boundary::{ElementTree, Feature, Mesh, NearElement, NearRows, SeenElement};
 
 use crate::surface::shapes::*;
 
@@ -9,11 +9,8 @@ fn sampled(corners: [Point; 3], n: usize) -> f64 {
     for i in 0..=n {
         for j in 0..=n - i {
             let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-            let at = [0, 1, 2].map(|k| {
-                corners[0][k]
-                    + u * (corners[1][k] - corners[0][k])
-                    + v * (corners[2][k] - corners[0][k])
-            });
+            let [a, b, c] = corners;
+            let at = plus(plus(a, u, minus(b, a)), v, minus(c, a));
             nearest = nearest.min(norm(at));
         }
     }
@@ -27,7 +24,7 @@ fn the_nearest_place_against_samples() {
     let mut features = [0; 3];
     let mut worst: f64 = 0.0;
     for _ in 0..300 {
-        let point = random.point([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
+        let point = random.within([-1.2, -1.2, -0.2], [1.2, 1.2, 1.4]);
         for triangle in (0..mesh.elements.len()).step_by(7) {
             let near = NearElement {
                 element: triangle as u32,
@@ -49,7 +46,7 @@ fn the_nearest_place_against_samples() {
                 }
                 Feature::Edge(e) => {
                     let e = e as usize;
-                    let edge = sub(corners[(e + 1) % 3], corners[e]);
+                    let edge = minus(corners[(e + 1) % 3], corners[e]);
                     assert!(dot(closest.offset, edge).abs() < 1e-12);
                     features[1] += 1;
                 }
@@ -66,12 +63,9 @@ fn the_nearest_place_against_samples() {
 
 fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     let mut found = Vec::new();
-    let range = |k: usize| {
-        if mesh.domain.periodic[k] {
-            -2..=2i8
-        } else {
-            0..=0
-        }
+    let range = |k: usize| match mesh.domain.periodic[k] {
+        true => -2..=2i8,
+        false => 0..=0,
     };
     for element in 0..mesh.elements.len() as u32 {
         for i in range(0) {
@@ -89,63 +83,60 @@ fn all_near(mesh: &Mesh<3>, point: Point, radius: f64) -> Vec<NearElement<3>> {
     found
 }
 
-#[test]
-fn the_grid_finds_all_and_only_those() {
+/// A pipe along one period and a body across another one.
+fn pipe_and_body() -> Mesh<3> {
     let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
     let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
-    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    mesh_in(&[pipe, body], 0.25, &domain)
+}
+
+#[test]
+fn the_tree_finds_all_and_only_those() {
+    let mesh = pipe_and_body();
     assert_eq!(size_of::<NearElement<3>>(), 8);
     let mut random = Random(11);
     let mut found = 0;
     for reach in [0.1, 0.6, 1.1] {
-        let grid = Grid::build(&mesh, reach);
+        let tree = ElementTree::build(&mesh, reach);
         for radius in [reach, 0.7 * reach] {
             for _ in 0..200 {
-                let point = random.point([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
-                let near: Vec<_> = grid.near(&mesh, point, radius).collect();
+                let point = random.within([-1.55, -1.8, -0.1], [1.55, 1.8, 2.1]);
+                let near: Vec<_> = tree.near(&mesh, point, radius).collect();
                 assert_eq!(near, all_near(&mesh, point, radius), "{point:?}");
                 found += near.len();
             }
         }
     }
     println!("{found} triangles found, as by brute force");
-    assert!(
-        Grid::build(&crate::surface::shapes::mesh(&[], 1.0), 1.0)
-            .near(&crate::surface::shapes::mesh(&[], 1.0), [0.0; 3], 1.0)
-            .next()
-            .is_none()
-    );
+    let none = mesh_in(&[], 1.0, &mesh.domain);
+    let tree = ElementTree::build(&none, 1.0);
+    assert_eq!(tree.near(&none, [0.0; 3], 1.0).count(), 0);
 }
 
 #[test]
 fn rows_of_points_together_hold_what_is_near_each() {
-    let pipe = prism("pipe", &polygon(12, 1.0), [0.0, 2.0], false).reversed();
-    let domain = periodic([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0], [true, false, true]);
-    let body = block("body", [1.25, -0.2, 0.5], [1.75, 0.2, 1.0]);
-    let mesh = mesh_in(&[pipe, body], 0.25, &domain);
+    let mesh = pipe_and_body();
     let mut random = Random(12);
     let (mut found, mut besides) = (0, 0);
     for (reach, radius) in [(0.6, 0.6), (1.1, 0.8)] {
-        let grid = Grid::build(&mesh, reach);
+        let tree = ElementTree::build(&mesh, reach);
         // Points side by side, and now and then one far away.
         let mut points = Vec::new();
         for _ in 0..40 {
-            let first = random.point([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
+            let first = random.within([-1.5, -1.5, 0.0], [1.5, 1.5, 2.0]);
             let beside = |k: usize| [0, 1, 2].map(|x| first[x] + 0.1 * (k >> x & 1) as f64);
             points.extend((0..8).map(beside));
         }
         let mut rows = NearRows::default();
-        grid.rows(&points, radius, &mut rows);
+        tree.rows(&points, radius, &mut rows);
         assert_eq!(rows.counts.len(), points.len());
         let mut rest = &rows.elements[..];
         for (point, count) in points.iter().zip(rows.counts) {
             let (row, after) = rest.split_at(count as usize);
             rest = after;
-            assert!(row.windows(2).all(|w| {
-                let key = |n: &NearElement<3>| (n.image, n.element);
-                key(&w[0]) < key(&w[1])
-            }));
+            let keys = row.iter().map(|n| (n.image, n.element));
+            assert!(keys.is_sorted_by(|a, b| a < b));
             let near = all_near(&mesh, *point, radius);
             assert!(near.iter().all(|n| row.contains(n)), "{point:?}");
             // A sphere around a triangle of 0.25 has at most its diagonal.
@@ -153,7 +144,7 @@ fn rows_of_points_together_hold_what_is_near_each() {
             assert!(!row.iter().any(out), "{point:?}");
             // The same whoever is served with it.
             let mut same = NearRows::default();
-            grid.rows(&[*point], radius, &mut same);
+            tree.rows(&[*point], radius, &mut same);
             assert_eq!(same.elements, row);
             found += near.len();
             besides += row.len() - near.len();
@@ -168,12 +159,12 @@ fn a_node_is_the_same_vector_in_all_triangles() {
     let pipe = prism("pipe", &polygon(24, 1.0), [0.1, 2.1], false).reversed();
     let domain = periodic([-1.5, -1.5, 0.1], [1.5, 1.5, 2.1], [false, false, true]);
     let mesh = mesh_in(&[pipe], 0.25, &domain);
-    let grid = Grid::build(&mesh, 0.8);
+    let tree = ElementTree::build(&mesh, 0.8);
     let point = [0.41, 0.3, 0.2];
     let mut seen = std::collections::HashMap::new();
     let mut faces = std::collections::BTreeSet::new();
     let mut repeated = 0;
-    for near in grid.near(&mesh, point, 0.8) {
+    for near in tree.near(&mesh, point, 0.8) {
         let triangle = mesh.elements[near.index()];
         faces.insert((triangle.face, near.image));
         for (k, corner) in mesh.corners_from(point, near).iter().enumerate() {
@@ -185,17 +176,12 @@ fn a_node_is_the_same_vector_in_all_triangles() {
         }
     }
     assert!(repeated > 100);
-    let corners: Vec<Point> = faces
-        .iter()
-        .flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image).flatten())
-        .collect();
-    let known = corners
-        .iter()
-        .filter(|c| seen.values().any(|s| s == *c))
-        .count();
+    let edges = faces.iter();
+    let edges = edges.flat_map(|(face, image)| mesh.face_edges_from(point, *face, *image));
+    let known = edges.flatten().filter(|c| seen.values().any(|s| s == c));
     assert!(
-        known > 10,
-        "{known} corners of faces are corners of triangles"
+        known.count() > 10,
+        "corners of faces are those of triangles"
     );
 }
 
@@ -203,13 +189,13 @@ fn a_node_is_the_same_vector_in_all_triangles() {
 #[test]
 fn the_nearest_of_some_triangles_tells_the_side_of_a_block() {
     let mesh = mesh(&[block("block", [0.0; 3], [1.0, 2.0, 1.5])], 0.25);
-    let grid = Grid::build(&mesh, 2.0);
+    let tree = ElementTree::build(&mesh, 2.0);
     let mut random = Random(8);
     let (mut found, mut largest) = (0, 0.0_f64);
     for _ in 0..400 {
-        let at = random.point([-0.5; 3], [1.5, 2.5, 2.0]);
-        let offset = random.point([-0.3; 3], [0.3; 3]);
-        let near = grid.near(&mesh, at, 1.5);
+        let at = random.within([-0.5; 3], [1.5, 2.5, 2.0]);
+        let offset = random.within([-0.3; 3], [0.3; 3]);
+        let near = tree.near(&mesh, at, 1.5);
         let seen: Vec<_> = near.map(|n| mesh.seen(at, n)).collect();
         let place: [f64; 3] = std::array::from_fn(|k| at[k] + offset[k]);
         // Beyond the sides along every axis, negative between them.

@@ -4,26 +4,8 @@ use std::collections::HashMap;
 
 use sph_boundary::{Mesh, PeriodicBox, Surface};
 
-pub type Point = [f64; 3];
-
-pub fn sub(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-pub fn dot(a: Point, b: Point) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-pub fn cross(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
-}
-
-pub fn norm(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
+pub use crate::bench::Random;
+pub use crate::vector::{Vector as Point, cross, dot, minus, norm, plus};
 
 pub fn surface(name: &str, points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Surface {
     Surface {
@@ -35,10 +17,8 @@ pub fn surface(name: &str, points: Vec<Point>, triangles: Vec<[u32; 3]>) -> Surf
 
 /// A block, the fluid around it.
 pub fn block(name: &str, low: Point, high: Point) -> Surface {
-    let points = (0..8)
-        .map(|c| [0, 1, 2].map(|k| if c >> k & 1 == 1 { high[k] } else { low[k] }))
-        .collect();
-    let quads = [
+    let corner = |c: usize| [0, 1, 2].map(|k| if c >> k & 1 == 1 { high[k] } else { low[k] });
+    let quads: [[u32; 4]; 6] = [
         [0, 2, 3, 1],
         [4, 5, 7, 6],
         [0, 1, 5, 4],
@@ -47,15 +27,26 @@ pub fn block(name: &str, low: Point, high: Point) -> Surface {
         [1, 3, 7, 5],
     ];
     let triangles = quads
-        .iter()
-        .flat_map(|q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
-        .collect();
-    surface(name, points, triangles)
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    surface(name, (0..8).map(corner).collect(), triangles.collect())
 }
 
 /// A tank, the fluid in it.
 pub fn tank(low: Point, high: Point) -> Surface {
     block("tank", low, high).reversed()
+}
+
+/// A flat rectangle of the plane z = 0, the fluid above it.
+pub fn floor(low: [f64; 2], high: [f64; 2]) -> Surface {
+    let corners = [
+        [low[0], low[1]],
+        [high[0], low[1]],
+        [high[0], high[1]],
+        [low[0], high[1]],
+    ];
+    let points = corners.map(|[x, y]| [x, y, 0.0]).to_vec();
+    surface("floor", points, vec![[0, 1, 2], [0, 2, 3]])
 }
 
 /// The upright prism over a polygon (counter-clockwise, star-shaped from its first corner), the
@@ -106,7 +97,7 @@ pub fn icosphere(levels: usize, radius: f64) -> Surface {
     for (a, b) in [(1.0, g), (-1.0, g), (1.0, -g), (-1.0, -g)] {
         points.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
-    let near = |a: usize, b: usize| (norm(sub(points[a], points[b])) - 2.0).abs() < 1e-9;
+    let near = |a: usize, b: usize| (norm(minus(points[a], points[b])) - 2.0).abs() < 1e-9;
     let mut triangles = Vec::new();
     for a in 0..12 {
         for b in a + 1..12 {
@@ -135,19 +126,15 @@ pub fn icosphere(levels: usize, radius: f64) -> Surface {
         }
         triangles = finer;
     }
-    let points = points
-        .iter()
-        .map(|p| p.map(|x| x * radius / norm(*p)))
-        .collect();
-    surface("ball", points, triangles)
+    let on_sphere = |p: &Point| p.map(|x| x * radius / norm(*p));
+    surface("ball", points.iter().map(on_sphere).collect(), triangles)
 }
 
 /// A regular polygon about the origin of the plane.
 pub fn polygon(n: usize, radius: f64) -> Vec<[f64; 2]> {
     let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
-    (0..n)
-        .map(|i| [radius * angle(i).cos(), radius * angle(i).sin()])
-        .collect()
+    let corner = |i: usize| [radius * angle(i).cos(), radius * angle(i).sin()];
+    (0..n).map(corner).collect()
 }
 
 /// A box that is periodic along some axes.
@@ -185,23 +172,7 @@ pub fn leak(mesh: &Mesh<3>) -> f64 {
 
 /// θ of the nodes at a place.
 pub fn theta_at(mesh: &Mesh<3>, place: Point) -> Vec<f64> {
-    let here = |p: Point| norm(sub(p, place)) < 1e-9;
+    let here = |p: Point| norm(minus(p, place)) < 1e-9;
     let nodes = mesh.nodes.iter().filter(|n| here(n.position));
     nodes.map(|n| n.theta).collect()
-}
-
-/// Numbers in [0, 1), the same in every run.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn number(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn point(&mut self, low: Point, high: Point) -> Point {
-        [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) * self.number())
-    }
 }

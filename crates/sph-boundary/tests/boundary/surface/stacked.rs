@@ -2,7 +2,9 @@
 
 use sph_boundary::{Mesh, PeriodicBox, Pose, Surface};
 
+use crate::close;
 use crate::surface::shapes::*;
+use crate::vector::unit;
 
 const SIDE: usize = 4;
 
@@ -19,23 +21,15 @@ impl Stack {
             solid: [[[false; SIDE]; SIDE]; SIDE],
             wraps,
         };
-        for x in 0..SIDE {
-            for y in 0..SIDE {
-                for z in 0..SIDE {
-                    stack.solid[x][y][z] = random.number() < part;
-                }
-            }
+        for solid in stack.solid.iter_mut().flatten().flatten() {
+            *solid = random.next() < part;
         }
-        // A block covered on all sides is refused; remove what covers it from above.
-        for x in 0..SIDE {
-            for y in 0..SIDE {
-                for z in 0..SIDE {
-                    let at = [x, y, z].map(|i| i as i32);
-                    if stack.solid[x][y][z] && stack.open_sides(at) == 0 {
-                        stack.solid[x][y][z] = false;
-                    }
-                }
-            }
+        // A block covered on all sides is refused.
+        let mut cells = stack.cells();
+        cells.sort_unstable();
+        for cell in cells {
+            let [x, y, z] = cell.map(|i| i as usize);
+            stack.solid[x][y][z] &= stack.open_sides(cell) > 0;
         }
         stack
     }
@@ -61,16 +55,14 @@ impl Stack {
             other[k] += step;
             self.fluid(other)
         };
-        (0..3)
-            .map(|k| usize::from(beside(k, 1)) + usize::from(beside(k, -1)))
-            .sum()
+        let both = |k: usize| usize::from(beside(k, 1)) + usize::from(beside(k, -1));
+        (0..3).map(both).sum()
     }
 
     fn cells(&self) -> Vec<[i32; 3]> {
         let side = SIDE as i32;
-        (0..side.pow(3))
-            .map(|n| [n % side, n / side % side, n / side / side])
-            .collect()
+        let cell = |n: i32| [n % side, n / side % side, n / side / side];
+        (0..side.pow(3)).map(cell).collect()
     }
 
     /// Faces between fluid and solid, each of unit area.
@@ -98,13 +90,9 @@ impl Stack {
     fn check(&self, mesh: &Mesh<3>, place: impl Fn(Point) -> Point, back: impl Fn(Point) -> Point) {
         assert!(mesh.free_edges.is_empty());
         let expected = self.area() as f64;
-        assert!(
-            (area(mesh) - expected).abs() < 1e-10,
-            "{} of {expected}",
-            area(mesh)
-        );
+        close(area(mesh), expected, 1e-10, "area");
         let sizes: f64 = mesh.nodes.iter().map(|n| n.size).sum();
-        assert!((sizes * mesh.spacing.powi(2) - expected).abs() < 1e-9);
+        close(sizes * mesh.spacing.powi(2), expected, 1e-9, "sizes");
         for node in &mesh.nodes {
             let at = back(node.position);
             // The fluid in the eight octants around the node.
@@ -114,11 +102,7 @@ impl Stack {
                 self.fluid(p.map(|x| x.floor() as i32))
             };
             let expected = (0..8).filter(|n| octant(*n)).count() as f64 / 8.0;
-            assert!(
-                (node.theta - expected).abs() < 1e-12,
-                "{at:?} {} {expected}",
-                node.theta
-            );
+            close(node.theta, expected, 1e-12, at);
         }
         for cell in self.cells() {
             let centre = place(cell.map(|i| f64::from(i) + 0.5));
@@ -136,11 +120,8 @@ fn areas_and_angles_of_stacks_in_a_tank() {
         stack.check(&mesh, |p| p, |p| p);
         assert!(leak(&mesh) < 1e-12);
         // A lattice throughout: its cells are halves of squares.
-        assert!(
-            mesh.elements
-                .iter()
-                .all(|t| (t.measure - 0.125).abs() < 1e-14)
-        );
+        let measures = mesh.elements.iter().map(|t| t.measure);
+        measures.for_each(|area| close(area, 0.125, 1e-14, seed));
         triangles += mesh.elements.len();
     }
     println!("{triangles} triangles of 39 stacks");
@@ -151,12 +132,11 @@ fn areas_and_angles_of_stacks_turned_out_of_the_axes() {
     for seed in 1..30 {
         let stack = Stack::new(seed * 1009, 0.3, false);
         let mut random = Random(seed);
-        let translation = random.point([-3.0; 3], [3.0; 3]);
-        let axis = random.point([-1.0; 3], [1.0; 3]);
-        let length = dot(axis, axis).sqrt();
+        let translation = random.within([-3.0; 3], [3.0; 3]);
+        let axis = random.within([-1.0; 3], [1.0; 3]);
         let pose = Pose {
             translation,
-            ..Pose::turned_about(axis.map(|x| x / length), 3.0 * random.number(), [1.0; 3])
+            ..Pose::turned_about(unit(axis), 3.0 * random.next(), [1.0; 3])
         };
         let mut walls = stack.walls();
         for p in walls.iter_mut().flat_map(|w| &mut w.points) {
@@ -178,9 +158,7 @@ fn areas_and_angles_of_stacks_across_periods() {
     let domain = periodic([0.0; 3], [SIDE as f64; 3], [true, true, false]);
     for seed in 1..30 {
         let stack = Stack::new(seed * 31, 0.3, true);
-        let walls = stack.walls();
-        let groups = vec![0; walls.len()];
-        let mesh = Mesh::<3>::build(&walls, &groups, 0.5, &domain).unwrap();
+        let mesh = mesh_in(&stack.walls(), 0.5, &domain);
         stack.check(&mesh, |p| p, |p| p);
     }
 }

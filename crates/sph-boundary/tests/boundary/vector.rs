@@ -23,8 +23,20 @@ pub fn minus(a: Vector, b: Vector) -> Vector {
     plus(a, -1.0, b)
 }
 
+pub fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
 pub fn unit(a: Vector) -> Vector {
-    a.map(|x| x / dot(a, a).sqrt())
+    a.map(|x| x / norm(a))
+}
+
+/// The directed edges around a face as seen from a point.
+pub fn edges(face: &[Vector], point: Vector) -> impl Iterator<Item = [Vector; 2]> {
+    let next = face.iter().cycle().skip(1);
+    face.iter()
+        .zip(next)
+        .map(move |(a, b)| [*a, *b].map(|c| minus(c, point)))
 }
 
 /// The unit normal of a triangle, counter-clockwise.
