@@ -125,9 +125,6 @@ pub enum FlowError {
     /// The system of the pressures could not be solved.
     #[error("pressures: {0}")]
     Unsolved(#[from] SparseError),
-    /// A conductance that cannot be found by name, or built.
-    #[error(transparent)]
-    Plugin(#[from] RegistryError),
 }
 
 /// Grains, walls, laws or steps with which nothing can be computed. Lengths are in m, times in s, stresses in Pa.
