@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use sph_core::{Axis, Vect, plugin, rectangular_duct};
 
 use crate::flow::point::point;
-use crate::{Solution, SolutionEntry, solutions::along};
+use crate::solutions::{along, decaying};
+use crate::{Solution, SolutionEntry};
 
 /// u = U η/H + Σ_n 2U/(nπ) (−1)ⁿ sin(nπη/H) exp(−n²π²νt/H²): the upper wall starts at t = 0.
 ///
@@ -31,17 +32,13 @@ impl<const D: usize> Solution<D> for Couette {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
         let eta = (position[D - 1] - self.bottom) / self.height;
         let rate = PI * PI * self.kinematic_viscosity * time / (self.height * self.height);
-        let mut u = self.wall_velocity * eta;
-        for n in 1..400 {
+        let terms = (1..400).map(|n| {
             let k = f64::from(n);
-            let decay = (-k * k * rate).exp();
-            if decay < 1e-18 {
-                break;
-            }
             let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
-            u += 2.0 * self.wall_velocity / (k * PI) * sign * (k * PI * eta).sin() * decay;
-        }
-        along(0, u)
+            let amplitude = 2.0 * self.wall_velocity / (k * PI) * sign * (k * PI * eta).sin();
+            (amplitude, (-k * k * rate).exp())
+        });
+        along(0, decaying(self.wall_velocity * eta, terms))
     }
 }
 
@@ -70,17 +67,13 @@ impl<const D: usize> Solution<D> for Poiseuille {
     fn velocity(&self, position: &Vect<D>, time: f64) -> Option<Vect<D>> {
         let (a, nu, height) = (self.acceleration, self.kinematic_viscosity, self.height);
         let eta = position[D - 1] - self.bottom;
-        let mut u = 0.5 * a / nu * eta * (height - eta);
-        for n in 0..200 {
+        let terms = (0..200).map(|n| {
             let k = f64::from(2 * n + 1);
-            let decay = (-k * k * PI * PI * nu * time / (height * height)).exp();
-            if decay < 1e-18 {
-                break;
-            }
             let amplitude = 4.0 * a * height * height / (nu * PI.powi(3) * k.powi(3));
-            u -= amplitude * (PI * eta * k / height).sin() * decay;
-        }
-        along(0, u)
+            let decay = (-k * k * PI * PI * nu * time / (height * height)).exp();
+            (-amplitude * (PI * eta * k / height).sin(), decay)
+        });
+        along(0, decaying(0.5 * a / nu * eta * (height - eta), terms))
     }
 }
 
