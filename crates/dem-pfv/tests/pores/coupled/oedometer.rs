@@ -237,10 +237,8 @@ fn the_mean_time_of_a_run_is_that_of_the_operators() {
         passed.push((step, sample.strain(system.grains())));
     }
     let end = sample.strain(system.grains());
-    let left = passed
-        .iter()
-        .map(|(step, strain)| (1.0 - strain / end) * step);
-    let mean: f64 = left.sum();
+    let left = |(step, strain): &(f64, f64)| (1.0 - strain / end) * step;
+    let mean: f64 = passed.iter().map(left).sum();
     let tau = sample.mean_time(viscosity, load, system.grains());
     println!("{mean:.5} s, operators {tau:.5} s: {:.4}", mean / tau);
     close(mean / tau, 1.0, 0.03);

@@ -87,10 +87,9 @@ fn seepage_at_the_critical_gradient_lifts_a_bed() {
     let dry = -grains.walls[4].force.z;
     // Free water of two grains above the bed: nothing else holds it down.
     let top = grains.highest() + 0.2;
+    let grain = |(x, r): (&Vector, &f64)| Grain::new((*x).into(), *r, DENSITY);
     let bed = grains.grains.position.iter().zip(&grains.grains.radius);
-    let bed: Vec<_> = bed
-        .map(|(x, r)| Grain::new((*x).into(), *r, DENSITY))
-        .collect();
+    let bed: Vec<_> = bed.map(grain).collect();
     let mut system = vessel(at_rest(&bed, modulus, [0.4, 0.4, top]), 20.0);
     let weight = -system.buoyant_weight().z;
     close(dry / weight, 1.0, 1e-3);

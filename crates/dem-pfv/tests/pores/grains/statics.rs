@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use dem_pfv::grains::{Control, GrainSystem, Grown, Partner, Setup, Vector, Wall, step_to_rest};
+use dem_pfv::grains::{
+    Control, GrainSystem, Grown, Partner, Setup, Touch, Vector, Wall, step_to_rest,
+};
 use nalgebra::Matrix3;
 
 use crate::close;
@@ -45,17 +47,13 @@ fn sample(friction: f64) -> GrainSystem {
 fn love_weber_is_wall_stress(system: &GrainSystem) {
     let volume = system.box_volume().expect("closed");
     let stress = system.stress(volume);
-    let at_walls = system
-        .contacts()
-        .filter(|t| matches!(t.partner, Partner::Wall(_)));
-    let moments = at_walls.map(|t| t.point * t.force.transpose());
+    let at_wall = |touch: &Touch| matches!(touch.partner, Partner::Wall(_));
+    let moments = system.contacts().filter(at_wall);
+    let moments = moments.map(|t| t.point * t.force.transpose());
     let walls = -moments.sum::<Matrix3<f64>>();
-    let grains = system
-        .grains
-        .position
-        .iter()
-        .zip(&system.grains.contact_force);
-    let rest: Matrix3<f64> = grains.map(|(x, f)| x * f.transpose()).sum();
+    let g = &system.grains;
+    let rest = g.position.iter().zip(&g.contact_force);
+    let rest: Matrix3<f64> = rest.map(|(x, f)| x * f.transpose()).sum();
     let difference = (stress * volume - walls - rest).amax();
     assert!(difference < 1e-12 * walls.amax() * 200.0, "{difference}");
     // And so the stress on a pair of walls is that of the grains, but for the overlaps and the rest.

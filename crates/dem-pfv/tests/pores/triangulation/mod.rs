@@ -7,28 +7,16 @@ mod refusals;
 
 use dem_pfv::triangulation::{Cell, Sphere, Triangulation, Vertex};
 use nalgebra::Vector3;
-
-/// Reproducible numbers in [0, 1).
-struct Draw(u64);
-
-impl Draw {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use sph_core::SplitMix;
 
 /// Spheres of which none holds the centre of another, so that none is hidden; many overlap.
 fn random_spheres(n: usize, seed: u64) -> Vec<Sphere> {
-    let mut draw = Draw(seed);
+    let mut draw = SplitMix(seed);
     let size = 0.4 / (n as f64).cbrt();
     let mut spheres: Vec<Sphere> = Vec::new();
     while spheres.len() < n {
-        let centre = [(); 3].map(|()| 0.05 + 0.9 * draw.next());
-        let new = Sphere::new(centre, size * draw.next());
+        let centre = [(); 3].map(|()| 0.05 + 0.9 * draw.unit());
+        let new = Sphere::new(centre, size * draw.unit());
         let free = |s: &Sphere| (s.centre - new.centre).norm() > s.radius.max(new.radius);
         if spheres.iter().all(free) {
             spheres.push(new);
