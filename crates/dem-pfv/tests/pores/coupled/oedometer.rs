@@ -47,11 +47,11 @@ impl Sample {
         GrainSystem::resume(self.state.clone(), boxed_laws()).expect("grains")
     }
 
-    /// Dry and so slowly that nothing swings: a load by its share in 40 parts, each settled.
+    /// Dry and so slowly that nothing swings: 40 parts of a load by their number, each settled.
     fn dry(&self, load: impl Fn(&mut GrainSystem, f64)) -> GrainSystem {
         let mut grains = self.grains();
         for part in 1..=40 {
-            load(&mut grains, f64::from(part) / 40.0);
+            load(&mut grains, f64::from(part));
             step_to_rest(&mut grains, 0.8, 1e-4, 100_000).expect("at rest");
         }
         step_to_rest(&mut grains, 0.8, 1e-6, 100_000).expect("at rest");
@@ -111,9 +111,10 @@ impl Sample {
         let forces = Forces::new(&pores, &pressures);
         // So weak that the packing answers as it did to the load.
         let scale = load / pressures.iter().copied().fold(0.0, f64::max);
-        let dragged = self.dry(|grains, share| {
+        let dragged = self.dry(|grains, part| {
+            let share = scale * part / 40.0;
             for (k, f) in grains.grains.external_force.iter_mut().enumerate() {
-                *f = -forces.on_sphere(k) * (scale * share);
+                *f = -forces.on_sphere(k) * share;
             }
         });
         self.strain(&dragged) / scale / self.strain(end)
@@ -164,7 +165,8 @@ fn misfit(curve: &[(f64, f64, f64)], theory: &Terzaghi) -> [f64; 2] {
 #[test]
 fn a_packing_consolidates_as_terzaghi_has_it() {
     let (sample, viscosity) = (Sample::new(GROWN1000, 1e4), 125.0);
-    let dry = sample.dry(|grains, share| press(grains, sample.confining + LOAD * share));
+    let stress = |part: f64| sample.confining + LOAD * part / 40.0;
+    let dry = sample.dry(|grains, part| press(grains, stress(part)));
     let dry = sample.strain(&dry);
     let mut system = sample.saturated(viscosity, LOAD, 0.0, Remeshing::default());
     let coefficient = system.mobility(2).expect("a mobility") * LOAD / dry;

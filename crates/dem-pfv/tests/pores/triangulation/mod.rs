@@ -7,11 +7,21 @@ mod refusals;
 
 use dem_pfv::triangulation::{Cell, Sphere, Triangulation, Vertex};
 use nalgebra::Vector3;
-use sph_core::SplitMix;
+
+/// Reproducible numbers in [0, 1).
+struct Draw(u64);
+
+impl Draw {
+    fn unit(&mut self) -> f64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
 
 /// Spheres of which none holds the centre of another, so that none is hidden; many overlap.
 fn random_spheres(n: usize, seed: u64) -> Vec<Sphere> {
-    let mut draw = SplitMix(seed);
+    let mut draw = Draw(seed);
     let size = 0.4 / (n as f64).cbrt();
     let mut spheres: Vec<Sphere> = Vec::new();
     while spheres.len() < n {
