@@ -4,7 +4,7 @@ use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
 use sph_probes::Probe;
 
-use super::common::{self, near, put};
+use super::common::{self, fill, near, put};
 
 const SPACING: f64 = 0.05;
 /// Top of the bed and of the water at x = 0, and their slopes.
@@ -21,31 +21,20 @@ fn world() -> World<2> {
         let down = |top: f64, row: u32| top + SLOPE * x - (f64::from(row) + 0.5) * SPACING;
         for row in 0..10 {
             let speed = if x < 0.5 && row < 2 { 0.3 } else { 0.1 };
-            rows.push((Vect::from([x, down(BED, row)]), 0, speed, 5.0));
+            rows.push(([x, down(BED, row)], 0, speed, 5.0));
         }
-        rows.extend((0..8).map(|row| (Vect::from([x, down(WATER, row)]), 1, 1.0, 2.5)));
+        rows.extend((0..8).map(|row| ([x, down(WATER, row)], 1, 1.0, 2.5)));
     }
     let mut free = Store::new(rows.len());
+    let row = || rows.iter().copied();
     let velocity = |speed: f64| Vect::from([0.6, -0.8]) * speed;
-    let still = |x: &Vect<2>| 1000.0 * 10.0 * (2.0 - x[1]);
-    put(&mut free, fields::POSITION, rows.iter().map(|r| r.0));
-    put(&mut free, fields::PHASE, rows.iter().map(|r| r.1));
-    put(
-        &mut free,
-        fields::VELOCITY,
-        rows.iter().map(|r| velocity(r.2)),
-    );
-    put(&mut free, fields::MASS, rows.iter().map(|r| r.3));
-    put(
-        &mut free,
-        fields::VOLUME,
-        rows.iter().map(|_| SPACING * SPACING),
-    );
-    put(
-        &mut free,
-        fields::PORE_PRESSURE,
-        rows.iter().map(|r| still(&r.0)),
-    );
+    let still = |[_, y]: [f64; 2]| 1000.0 * 10.0 * (2.0 - y);
+    put(&mut free, fields::POSITION, row().map(|r| r.0.into()));
+    put(&mut free, fields::PHASE, row().map(|r| r.1));
+    put(&mut free, fields::VELOCITY, row().map(|r| velocity(r.2)));
+    put(&mut free, fields::MASS, row().map(|r| r.3));
+    fill(&mut free, fields::VOLUME, SPACING * SPACING);
+    put(&mut free, fields::PORE_PRESSURE, row().map(|r| still(r.0)));
     World {
         gravity: Vect::from([0.0, -10.0]),
         steady_gravity: Vect::from([0.0, -10.0]),
@@ -75,10 +64,9 @@ fn the_three_curves_are_the_lines_they_were_made_from() {
     for row in rows.iter().filter(|row| inner(row[0])) {
         let moving = if row[0] < 0.5 { 2.0 * SPACING } else { 0.0 };
         let exact = [WATER, BED, BED - moving].map(|top| top + SLOPE * row[0]);
-        exact
-            .into_iter()
-            .zip(&row[1..])
-            .for_each(|(exact, found)| near(*found, exact));
+        for (found, exact) in row[1..].iter().zip(exact) {
+            near(*found, exact);
+        }
         counted += 1;
     }
     assert_eq!(counted, 6);

@@ -15,6 +15,12 @@ pub fn put<const D: usize, K: Kind>(
     free.put(field, items.into_iter().collect()).unwrap();
 }
 
+/// The same of one value.
+pub fn fill<const D: usize, K: Kind>(free: &mut Store<D>, field: Field<K>, item: K::Item<D>) {
+    let items = vec![item; free.len()];
+    put(free, field, items);
+}
+
 /// Particles in an open box around the unit square or cube, without walls, gravity or lists.
 pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
     World {

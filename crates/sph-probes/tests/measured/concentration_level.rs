@@ -2,7 +2,7 @@
 
 use sph_core::{Store, Vect, fields};
 
-use super::common::{built, near, put, world};
+use super::common::{built, fill, near, put, world};
 
 const SPACING: f64 = 0.05;
 
@@ -17,7 +17,7 @@ fn height(of: f64) -> f64 {
         _ => 0.0,
     };
     put(&mut free, fields::POSITION, (0..36).map(place));
-    put(&mut free, fields::MASS, [2.0; 36]);
+    fill(&mut free, fields::MASS, 2.0);
     put(&mut free, fields::CONCENTRATION, (0..36).map(concentration));
     let probe = built("concentration-level", &format!("concentration = {of}"));
     probe.measure(&world(free, SPACING)).unwrap()[0]

@@ -14,18 +14,11 @@ fn world() -> World<2> {
     let mut free = Store::new(10);
     let velocity = |x: Vect<2>| Vect::from([x[0], -2.0 * x[0]]);
     let pressure = |x: Vect<2>| 3.0 * x[0] + 1.0;
-    put(&mut free, fields::POSITION, (0..10).map(place));
-    put(
-        &mut free,
-        fields::VELOCITY,
-        (0..10).map(place).map(velocity),
-    );
+    let places = || (0..10).map(place);
+    put(&mut free, fields::POSITION, places());
+    put(&mut free, fields::VELOCITY, places().map(velocity));
     put(&mut free, fields::MASS, (1..=10).map(f64::from));
-    put(
-        &mut free,
-        fields::PRESSURE,
-        (0..10).map(place).map(pressure),
-    );
+    put(&mut free, fields::PRESSURE, places().map(pressure));
     put(&mut free, fields::PHASE, (0..10).map(|k| u32::from(k > 3)));
     common::world(free, SPACING)
 }

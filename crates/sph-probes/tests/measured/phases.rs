@@ -4,7 +4,7 @@ use sph_core::{Store, Vect, fields};
 use sph_neighbours::{Domain, World};
 use sph_probes::Probe;
 
-use super::common::{self, close, near, put, scene};
+use super::common::{self, close, fill, near, put, scene};
 
 const SPACING: f64 = 0.05;
 
@@ -22,8 +22,8 @@ fn world() -> World<2> {
     let mass = |x: &Vect<2>| if x[1] < wave(x[0]) { 3.0 } else { 1.0 };
     put(&mut free, fields::PHASE, positions.iter().map(below));
     put(&mut free, fields::MASS, positions.iter().map(mass));
-    put(&mut free, fields::VOLUME, [SPACING * SPACING; 480]);
-    put(&mut free, fields::VELOCITY, [Vect::from([2.0, 0.0]); 480]);
+    fill(&mut free, fields::VOLUME, SPACING * SPACING);
+    fill(&mut free, fields::VELOCITY, Vect::from([2.0, 0.0]));
     put(&mut free, fields::POSITION, positions);
     let mut domain = Domain::open(Vect::from([0.0, -1.0]), Vect::from([1.0, 3.0]));
     domain.periodic[0] = true;
@@ -239,7 +239,7 @@ fn the_only_phase_is_everything() {
     for field in [fields::POSITION, fields::VELOCITY] {
         put(&mut bare, field, world.free.get(field).unwrap().to_vec());
     }
-    put(&mut bare, fields::VOLUME, [SPACING * SPACING; 480]);
+    fill(&mut bare, fields::VOLUME, SPACING * SPACING);
     world.free = bare;
     let mut probe = common::built("phase-volume", "phase = \"water\"");
     probe.prepare(&scene(&["water".into()])).unwrap();

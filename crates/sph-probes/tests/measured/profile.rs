@@ -4,7 +4,7 @@ use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
 use sph_probes::{Curves, Probe, Profile};
 
-use super::common::{self, near, put};
+use super::common::{self, fill, near, put};
 
 /// Particles of the unit square, off their lattice by 0.2 δr, in a linear flow.
 fn sheared() -> World<2> {
@@ -18,11 +18,7 @@ fn sheared() -> World<2> {
     let places: Vec<_> = (0..n * n).map(place).collect();
     let mut free = Store::new(places.len());
     put(&mut free, fields::VELOCITY, places.iter().map(flow));
-    put(
-        &mut free,
-        fields::VOLUME,
-        places.iter().map(|_| spacing * spacing),
-    );
+    fill(&mut free, fields::VOLUME, spacing * spacing);
     put(&mut free, fields::POSITION, places);
     common::world(free, spacing)
 }

@@ -6,7 +6,7 @@ use sph_core::{Registry, Store, Vect, fields};
 use sph_neighbours::World;
 use sph_probes::{Probe, ProbeEntry};
 
-use super::common::{self, close, put};
+use super::common::{self, close, fill, put};
 
 /// ψ = sin²(πx) sin²(πy)·¼ in the unit square: both velocities vanish on all sides.
 fn world(rows: usize, scale: f64) -> World<2> {
@@ -18,11 +18,7 @@ fn world(rows: usize, scale: f64) -> World<2> {
     let mut free = Store::new(positions.len());
     let velocity = |x: &Vect<2>| Vect::from([u(x), v(x)]);
     put(&mut free, fields::VELOCITY, positions.iter().map(velocity));
-    put(
-        &mut free,
-        fields::VOLUME,
-        positions.iter().map(|_| spacing * spacing),
-    );
+    fill(&mut free, fields::VOLUME, spacing * spacing);
     put(&mut free, fields::POSITION, positions);
     common::world(free, spacing)
 }
