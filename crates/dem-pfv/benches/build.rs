@@ -1,19 +1,15 @@
 //! Time of a triangulation: random spheres in a box, and a lattice, where every decision is a tie.
 
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
+use sph_core::SplitMix;
 
 fn main() {
     divan::main();
 }
 
 fn spheres(n: usize) -> Vec<Sphere> {
-    let mut state = 1_u64;
-    let mut draw = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        0.01 + 0.98 * ((state >> 11) as f64 / (1_u64 << 53) as f64)
-    };
+    let mut random = SplitMix(1);
+    let mut draw = || 0.01 + 0.98 * random.unit();
     let size = 0.2 / (n as f64).cbrt();
     let sphere = |_| Sphere::new([draw(), draw(), draw()], size);
     (0..n).map(sphere).collect()

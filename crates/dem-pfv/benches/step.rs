@@ -1,7 +1,8 @@
 //! Time of a step and of its parts: a dense packing at rest, and grains that flow.
 
 use dem_pfv::grains::{
-    Cloud, ContactLaw, Grain, GrainSystem, Grown, HertzMindlin, LinearElastic, Setup, Wall,
+    Cloud, ContactLaw, GrainSystem, Grown, HertzMindlin, LinearElastic, Setup, Vector, Wall,
+    uniform_radii,
 };
 use divan::counter::ItemsCount;
 
@@ -14,14 +15,11 @@ const MODULUS: f64 = 15e6;
 /// Dense at a porosity of 0.40 in a unit box, about five contacts per grain.
 fn packing(grains: usize, law: impl ContactLaw + 'static) -> GrainSystem {
     let radius = 0.38 / (grains as f64).cbrt();
-    let radii = dem_pfv::grains::uniform_radii(grains, 0.9 * radius, 1.1 * radius, 1);
-    let places = Cloud::new([0.0; 3], [1.0; 3])
-        .place(&radii, 1)
-        .expect("a cloud");
-    let grains = places.iter().zip(&radii);
-    let grains = grains.map(|(at, &r)| Grain::new((*at).into(), r, 2600.0));
+    let radii = uniform_radii(grains, 0.9 * radius, 1.1 * radius, 1);
+    let grains = Cloud::new([0.0; 3], [1.0; 3]).grains(&radii, 2600.0, 1);
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
-    let setup = Setup::new(grains.collect(), LinearElastic::new(MODULUS, 0.5, 0.1));
+    let law_of_growth = LinearElastic::new(MODULUS, 0.5, 0.1);
+    let setup = Setup::new(grains.expect("a cloud"), law_of_growth);
     let mut system = GrainSystem::new(setup.walls(walls).damping(0.4)).expect("a cloud");
     let growth = Grown {
         fast: 1.004,
@@ -75,7 +73,7 @@ fn flowing(bencher: divan::Bencher, grains: usize) {
     let mut system = packing(grains, LinearElastic::new(MODULUS, 0.5, 0.5));
     for (i, velocity) in system.grains.velocity.iter_mut().enumerate() {
         let shake = |k: usize| ((i * 7919 + k * 104_729) % 1000) as f64 / 500.0 - 1.0;
-        *velocity = 2.0 * dem_pfv::grains::Vector::new(shake(1), shake(2), shake(3));
+        *velocity = 2.0 * Vector::new(shake(1), shake(2), shake(3));
     }
     stepping(bencher, system);
 }

@@ -7,23 +7,28 @@ mod common;
 use std::time::Instant;
 
 use dem_pfv::coupled::{CoupledSystem, FlowSetup, Fluid, WallBoundary};
-use dem_pfv::grains::Control;
+use dem_pfv::grains::{Control, GrainSystem};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args()
         .nth(1)
         .ok_or("name a file of spheres, x y z r")?;
-    let mut grains = common::boxed(common::spheres(&file)?, 0.0)?;
-    let (count, porosity) = (grains.grains.len(), grains.porosity().unwrap_or_default());
-    let mass = 0.1 * grains.grains.mass.iter().sum::<f64>();
-    grains.walls[5].control = Control::Piston {
-        stress: 1.5e4,
-        mass,
+    let mut dry = common::boxed(common::spheres(&file)?, 0.0)?;
+    let (count, porosity) = (dry.grains.len(), dry.porosity().unwrap_or_default());
+    let loaded = || -> Result<GrainSystem, Box<dyn std::error::Error>> {
+        let mut grains = common::boxed(common::spheres(&file)?, 0.0)?;
+        let mass = 0.1 * grains.grains.mass.iter().sum::<f64>();
+        grains.walls[5].control = Control::Piston {
+            stress: 1.5e4,
+            mass,
+        };
+        Ok(grains)
     };
     let setup = FlowSetup::new(Fluid::new(250.0, 0.0));
     let mut setup = setup
         .side(4, WallBoundary::drained(0.0))
         .side(5, WallBoundary::drained(0.0));
+    let grains = loaded()?;
     let start = Instant::now();
     let mut system = CoupledSystem::new(grains, setup.clone())?;
     let made = start.elapsed();
@@ -38,7 +43,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "strongest drag                {:8.2} ms",
         1e3 * (start.elapsed() - made).as_secs_f64()
     );
-    let mut dry = common::boxed(common::spheres(&file)?, 0.0)?;
     let (steps, step) = (300, 0.8 * limit.step);
     let start = Clock::now();
     for _ in 0..steps {
@@ -56,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         system.meshes - 1
     );
     setup.remeshing.strain = None;
-    let mut system = CoupledSystem::new(system.into_grains(), setup)?;
+    let mut system = CoupledSystem::new(loaded()?, setup)?;
     let start = Clock::now();
     for _ in 0..steps {
         system.step_unchecked(step)?;

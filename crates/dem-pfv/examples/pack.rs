@@ -3,7 +3,7 @@
 //! `cargo run --release -p dem-pfv --example pack [grains] [stress Pa] [friction degrees] [d_max/d_min] [seed]`
 
 use dem_pfv::grains::{
-    Cloud, Grain, GrainError, GrainSystem, Grown, LinearElastic, Setup, Wall, uniform_radii,
+    Cloud, GrainError, GrainSystem, Grown, LinearElastic, Setup, Wall, uniform_radii,
 };
 
 fn main() -> Result<(), GrainError> {
@@ -14,16 +14,10 @@ fn main() -> Result<(), GrainError> {
     let (count, stress, degrees, ratio, seed) =
         (next(1000.0), next(1e4), next(1.0), next(1.22), next(1.0));
     let radius = (0.25 * 0.75 / std::f64::consts::PI / count).cbrt();
-    let (low, high) = (
-        2.0 * radius / (1.0 + ratio),
-        2.0 * radius * ratio / (1.0 + ratio),
-    );
+    let low = 2.0 * radius / (1.0 + ratio);
+    let high = 2.0 * radius * ratio / (1.0 + ratio);
     let radii = uniform_radii(count as usize, low, high, seed as u64);
-    let places = Cloud::new([0.0; 3], [1.0; 3]).place(&radii, seed as u64)?;
-    let grains = places.iter().zip(&radii);
-    let grains = grains
-        .map(|(at, &r)| Grain::new((*at).into(), r, 2600.0))
-        .collect();
+    let grains = Cloud::new([0.0; 3], [1.0; 3]).grains(&radii, 2600.0, seed as u64)?;
     let law = |ratio, friction| LinearElastic::new(15e6, ratio, friction);
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
     let setup = Setup::new(grains, law(0.5, degrees.to_radians().tan())).law(law(0.0, 0.0));

@@ -1,37 +1,26 @@
 //! Errors, with their reasons.
 
+use std::fmt::{self, Display};
+
 use serde::{Deserialize, Serialize};
 use sparse::SparseError;
 use sph_core::RegistryError;
 use thiserror::Error;
 
-/// A number out of its range.
+/// A number out of its range: the quantity, its value and the valid ones.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{what} {value}; it must be {valid}")]
-pub struct OutOfRange {
-    /// The quantity with its verb: "the step is".
-    pub what: String,
-    /// Its value.
-    pub value: f64,
-    /// The valid values.
-    pub valid: &'static str,
-}
+#[error("{0}")]
+pub struct OutOfRange(String);
 
-/// Checks a number; `what` is the quantity with its verb.
+/// Checks a number; `what` is the quantity with its verb, "the step is".
 ///
 /// # Errors
 /// Unless it is `fine` and finite.
-pub fn require(
-    what: impl Into<String>,
-    value: f64,
-    valid: &'static str,
-    fine: bool,
-) -> Result<(), OutOfRange> {
-    if fine && value.is_finite() {
-        return Ok(());
+pub fn require(what: impl Display, value: f64, valid: &str, fine: bool) -> Result<(), OutOfRange> {
+    match fine && value.is_finite() {
+        true => Ok(()),
+        false => Err(OutOfRange(format!("{what} {value}; it must be {valid}"))),
     }
-    let what = what.into();
-    Err(OutOfRange { what, value, valid })
 }
 
 /// Grains, fluids, conditions or steps with which nothing can be computed.
@@ -125,9 +114,6 @@ pub enum FlowError {
     /// The system of the pressures could not be solved.
     #[error("pressures: {0}")]
     Unsolved(#[from] SparseError),
-    /// A conductance that cannot be found by name, or built.
-    #[error(transparent)]
-    Plugin(#[from] RegistryError),
 }
 
 /// Grains, walls, laws or steps with which nothing can be computed. Lengths are in m, times in s, stresses in Pa.
@@ -303,8 +289,8 @@ pub enum Partner {
     Triangle(usize, usize),
 }
 
-impl std::fmt::Display for Partner {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Display for Partner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Grain(grain) => write!(f, "grain {grain}"),
             Self::Wall(wall) => write!(f, "wall {wall}"),

@@ -9,8 +9,7 @@
 //! ```
 //!
 //! * [`PoreGeometry`]: cells and [`Throat`]s of spheres in a box, by signed [`SolidAngles`].
-//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`ConductanceEntry`],
-//!   [`conductance()`].
+//! * [`Conductance`]: [`HydraulicRadius`], [`EffectiveRadius`], or a plugin of your own: [`ConductanceEntry`].
 //! * [`Boundary`]: pressures and inflows on any part of a wall, in any cell.
 //! * [`FlowSystem`]: the system, its [`Solver`], compressibility of the fluid, permeability.
 //! * [`Forces`]: pressure and viscous forces on spheres and walls; [`Edge`]: neighbours and the faces between them.
@@ -47,5 +46,5 @@ pub use forces::Forces;
 pub(crate) use forces::UnitForces;
 pub use geometry::{Edge, PoreGeometry, cell_volumes};
 pub use system::{FlowSystem, Solver, Storage};
-pub use throat::{Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius, conductance};
+pub use throat::{Conductance, ConductanceEntry, EffectiveRadius, HydraulicRadius};
 pub use throat::{SlipCondition, SolidAngles, Throat};

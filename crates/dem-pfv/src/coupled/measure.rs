@@ -120,15 +120,6 @@ impl CoupledSystem {
         &mut self.grains
     }
 
-    /// The grains without the fluid and its forces.
-    pub fn into_grains(mut self) -> GrainSystem {
-        self.grains.grains.external_force.fill(Vector::zeros());
-        for wall in &mut self.grains.walls {
-            wall.external_force = Vector::zeros();
-        }
-        self.grains
-    }
-
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.grains.time

@@ -3,12 +3,11 @@
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
-use sph_core::{Registry, plugin};
-use toml::Table;
+use sph_core::plugin;
 
 use crate::Vector;
 use crate::flow::facet::{Facet, angle, edge, inscribed_radius};
-use crate::flow::{FlowError, solid_angle};
+use crate::flow::solid_angle;
 use crate::triangulation::{self as mesh, Triangulation, Vertex};
 
 /// Condition of the fluid at a wall.
@@ -204,23 +203,6 @@ sph_core::contract!(
     Conductance,
     .in_space()
 );
-
-/// The conductance of that name with these parameters.
-///
-/// # Errors
-/// None or two of that name; an unknown parameter; a value out of range.
-///
-/// ```
-/// use dem_pfv::flow::conductance;
-///
-/// let with = |parameters: &str| conductance("hydraulic-radius", &parameters.parse().expect("TOML"));
-/// assert!(with("shape_factor = 0.5").is_ok());
-/// assert!(with("shape_factor = -1.0").err().is_some_and(|e| e.to_string().contains("shape_factor")));
-/// ```
-pub fn conductance(name: &str, parameters: &Table) -> Result<Box<dyn Conductance>, FlowError> {
-    let registry = Registry::<ConductanceEntry>::discovered()?;
-    Ok((registry.find(name)?.build)(parameters)?)
-}
 
 /// g = α A R² / µ with the fluid area A of the facet and the hydraulic radius R = φ/γ; α = ½ is that of
 /// a round tube of radius 2R. Source: Catalano 2012, Eqs. (3.4), (3.5).

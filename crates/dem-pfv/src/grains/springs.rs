@@ -284,7 +284,7 @@ fn slide(contact: &mut Contact, normal: f64, [shear, mut total]: [Vector; 2], fr
 /// those that both laws have.
 fn check(
     law: &str,
-    own: [(&str, f64, &'static str, bool); 2],
+    own: [(&str, f64, &str, bool); 2],
     [friction, damping]: [f64; 2],
     rolling: Option<RollingResistance>,
 ) -> Result<(), GrainError> {

@@ -77,17 +77,14 @@ impl<const D: usize> Probe<D> for BedLevels {
 
     fn measure(&self, world: &World<D>) -> Result<Vec<f64>, StepError> {
         let bed = self.bed(world)?;
-        let none = [f64::NAN; 2];
-        let best = |better: fn(f64, f64) -> bool| {
-            self.places(bed).fold(none, |[level, x], place| {
-                let here = bed.level(place);
-                match level.is_nan() || better(here, level) {
-                    true => [here, bed.grid.position(place)[0]],
-                    false => [level, x],
-                }
-            })
-        };
-        let (lowest, highest) = (best(|a, b| a < b), best(|a, b| a > b));
+        // Of equals the first place.
+        let [lowest, highest] = [1.0, -1.0].map(|sign| {
+            let level = |place: &usize| sign * bed.level(*place);
+            let found = self
+                .places(bed)
+                .min_by(|a, b| level(a).total_cmp(&level(b)));
+            found.map_or([f64::NAN; 2], |k| [bed.level(k), bed.grid.position(k)[0]])
+        });
         let area: f64 = self.places(bed).map(|k| bed.grid.area(k)).sum();
         let total = |value: &dyn Fn(usize) -> f64| -> f64 {
             self.places(bed).map(|k| bed.grid.area(k) * value(k)).sum()

@@ -219,18 +219,16 @@ impl<const D: usize> Solution<D> for EllipticalDrop {
 mod tests {
     use super::*;
 
-    fn patch() -> RotatingSquare {
-        RotatingSquare {
+    /// Of a square patch, from its centre.
+    fn pressure(x: f64, y: f64) -> f64 {
+        let patch = RotatingSquare {
             angular_velocity: 2.0,
             side: 0.5,
             centre: vec![1.0, -1.0],
             density: 10.0,
-        }
-    }
-
-    fn pressure(x: f64, y: f64) -> f64 {
+        };
         let at = Vect::from([1.0 + x, -1.0 + y]);
-        patch().pressure(&at, 0.0).unwrap_or(f64::NAN)
+        patch.pressure(&at, 0.0).unwrap_or(f64::NAN)
     }
 
     #[test]

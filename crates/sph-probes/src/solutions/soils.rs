@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use sph_core::{Vect, plugin};
 
-use crate::{Solution, SolutionEntry, solutions::along};
+use crate::solutions::{along, decaying};
+use crate::{Solution, SolutionEntry};
 
 /// u(z) = 2I/(3d) √(φ g cos θ) [H^(3/2) − (H − z)^(3/2)] along the first axis, and
 /// p(z) = [exp(K φρ_g g cos θ (H − z)) − 1]/K.
@@ -155,16 +156,9 @@ impl Terzaghi {
     fn excess(&self, height: f64, time: f64) -> f64 {
         let z = (1.0 - height / self.depth).clamp(0.0, 1.0);
         let progress = self.consolidation * time / (self.depth * self.depth);
-        let mut excess = 0.0;
-        for m in 0..20_000 {
-            let place = FRAC_PI_2 + PI * f64::from(m);
-            let decay = (-place * place * progress).exp();
-            if decay < 1e-18 {
-                break;
-            }
-            excess += 2.0 / place * (place * z).sin() * decay;
-        }
-        self.load * excess
+        let places = (0..20_000).map(|m| FRAC_PI_2 + PI * f64::from(m));
+        let terms = places.map(|m| (2.0 / m * (m * z).sin(), (-m * m * progress).exp()));
+        self.load * decaying(0.0, terms)
     }
 }
 

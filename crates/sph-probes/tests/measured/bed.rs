@@ -1,8 +1,10 @@
 //! Probes of a movable bed, on particles whose places are known.
 
-use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeEntry};
+use sph_probes::Probe;
+
+use super::common::{self, fill, near, put};
 
 const SPACING: f64 = 0.05;
 /// Top of the bed and of the water at x = 0, and their slopes.
@@ -19,40 +21,29 @@ fn world() -> World<2> {
         let down = |top: f64, row: u32| top + SLOPE * x - (f64::from(row) + 0.5) * SPACING;
         for row in 0..10 {
             let speed = if x < 0.5 && row < 2 { 0.3 } else { 0.1 };
-            rows.push((Vect::from([x, down(BED, row)]), 0, speed, 5.0));
+            rows.push(([x, down(BED, row)], 0, speed, 5.0));
         }
-        rows.extend((0..8).map(|row| (Vect::from([x, down(WATER, row)]), 1, 1.0, 2.5)));
+        rows.extend((0..8).map(|row| ([x, down(WATER, row)], 1, 1.0, 2.5)));
     }
     let mut free = Store::new(rows.len());
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::VELOCITY, Role::State);
-    free.add(fields::MASS, Role::State);
-    free.add(fields::PHASE, Role::State);
-    free.add(fields::VOLUME, Role::Derived);
-    free.add(fields::PORE_PRESSURE, Role::Derived);
+    let row = || rows.iter().copied();
     let velocity = |speed: f64| Vect::from([0.6, -0.8]) * speed;
-    *free.get_mut(fields::POSITION).unwrap() = rows.iter().map(|r| r.0).collect();
-    *free.get_mut(fields::PHASE).unwrap() = rows.iter().map(|r| r.1).collect();
-    *free.get_mut(fields::VELOCITY).unwrap() = rows.iter().map(|r| velocity(r.2)).collect();
-    *free.get_mut(fields::MASS).unwrap() = rows.iter().map(|r| r.3).collect();
-    let cell = SPACING * SPACING;
-    free.get_mut(fields::VOLUME).unwrap().fill(cell);
-    let still = |r: &(Vect<2>, u32, f64, f64)| 1000.0 * 10.0 * (2.0 - r.0[1]);
-    *free.get_mut(fields::PORE_PRESSURE).unwrap() = rows.iter().map(still).collect();
+    let still = |[_, y]: [f64; 2]| 1000.0 * 10.0 * (2.0 - y);
+    put(&mut free, fields::POSITION, row().map(|r| r.0.into()));
+    put(&mut free, fields::PHASE, row().map(|r| r.1));
+    put(&mut free, fields::VELOCITY, row().map(|r| velocity(r.2)));
+    put(&mut free, fields::MASS, row().map(|r| r.3));
+    fill(&mut free, fields::VOLUME, SPACING * SPACING);
+    put(&mut free, fields::PORE_PRESSURE, row().map(|r| still(r.0)));
     World {
         gravity: Vect::from([0.0, -10.0]),
         steady_gravity: Vect::from([0.0, -10.0]),
-        ..super::common::world(free, SPACING)
+        ..common::world(free, SPACING)
     }
 }
 
 fn probe(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
-    let registry = Registry::<ProbeEntry>::discovered().unwrap();
-    let table = toml::from_str(keys).unwrap();
-    let mut probe = registry.find(kind).unwrap().build::<2>(&table).unwrap();
-    let phases = ["sand", "water"].map(String::from);
-    probe.prepare(&super::common::scene(&phases)).unwrap();
-    probe
+    common::prepared(kind, keys, ["sand", "water"])
 }
 
 fn measured(kind: &str, keys: &str) -> Vec<f64> {
@@ -62,15 +53,10 @@ fn measured(kind: &str, keys: &str) -> Vec<f64> {
 #[test]
 fn the_three_curves_are_the_lines_they_were_made_from() {
     let bed = probe("bed-lines", "phase = \"sand\"");
-    let names: Vec<_> = bed
-        .as_curves()
-        .unwrap()
-        .curve_columns()
-        .into_iter()
-        .map(|c| c.suffix)
-        .collect();
-    assert_eq!(names, ["x", "surface", "interface", "limit"]);
-    let rows = bed.as_curves().unwrap().curves(&world()).unwrap();
+    let curves = bed.as_curves().unwrap();
+    let names = curves.curve_columns().into_iter().map(|c| c.suffix);
+    assert!(names.eq(["x", "surface", "interface", "limit"]));
+    let rows = curves.curves(&world()).unwrap();
     assert_eq!(rows.len(), 10, "a row for two spacings");
     // Between the first and the last particle of its line and clear of the steps in the middle.
     let inner = |x: f64| (0.1..0.4).contains(&x) || (0.6..0.9).contains(&x);
@@ -78,9 +64,8 @@ fn the_three_curves_are_the_lines_they_were_made_from() {
     for row in rows.iter().filter(|row| inner(row[0])) {
         let moving = if row[0] < 0.5 { 2.0 * SPACING } else { 0.0 };
         let exact = [WATER, BED, BED - moving].map(|top| top + SLOPE * row[0]);
-        for (k, exact) in exact.iter().enumerate() {
-            let error = (row[k + 1] - exact).abs();
-            assert!(error < 1e-12, "{row:?} for {exact}: {error:e}");
+        for (found, exact) in row[1..].iter().zip(exact) {
+            near(*found, exact);
         }
         counted += 1;
     }
@@ -90,12 +75,12 @@ fn the_three_curves_are_the_lines_they_were_made_from() {
 #[test]
 fn a_moving_bed_is_weighed_with_its_lowest_point() {
     let found = measured("bed-lines", "phase = \"sand\"");
-    assert!((found[0] - 20.0 * 5.0).abs() < 1e-12, "{found:?}");
+    near(found[0], 20.0 * 5.0);
     // The lower edge of the second row at the first particle.
     let lowest = BED - 2.0 * SPACING + SLOPE * 0.5 * SPACING;
-    assert!((found[1] - lowest).abs() < 1e-12, "{found:?} for {lowest}");
+    near(found[1], lowest);
     let all = measured("bed-lines", "phase = \"sand\"\nthreshold = 0.05");
-    assert!((all[0] - 200.0 * 5.0).abs() < 1e-12, "{all:?}");
+    near(all[0], 200.0 * 5.0);
     let none = measured("bed-lines", "phase = \"sand\"\nthreshold = 0.5");
     assert!(none[0] == 0.0 && none[1].is_nan(), "{none:?}");
 }
@@ -115,23 +100,24 @@ fn a_line_compares_the_limit_with_a_drawn_one() {
     let found = rms(0.0, 0.42);
     assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
     let found = rms(0.02, 0.42);
-    assert!((found[0] - 0.02).abs() < 1e-12, "{found:?}");
+    near(found[0], 0.02);
 }
 
 #[test]
 fn eroded_mass_is_what_is_beyond_and_above() {
     // Tops of the grains' columns are at 0.5 + 0.2 x: at 0.6 for x = 0.625.
-    let found = measured(
-        "eroded-mass",
-        "phase = \"sand\"\nlevel = 0.599\nbeyond = 0.85",
-    );
     let (out, risen) = (3.0 * 10.0 * 5.0, 5.0 * 5.0);
-    let exact = [out, risen, out + risen];
-    assert_eq!(found, exact);
-    let back = "phase = \"sand\"\nlevel = 10\nbeyond = 0.1\ndirection = \"backward\"";
-    assert_eq!(measured("eroded-mass", back), [100.0, 0.0, 100.0]);
-    let inside = measured("eroded-mass", "phase = \"sand\"\nlevel = 10");
-    assert_eq!(inside, [0.0; 3]);
+    for (keys, exact) in [
+        ("level = 0.599\nbeyond = 0.85", [out, risen, out + risen]),
+        (
+            "level = 10\nbeyond = 0.1\ndirection = \"backward\"",
+            [100.0, 0.0, 100.0],
+        ),
+        ("level = 10", [0.0; 3]),
+    ] {
+        let found = measured("eroded-mass", &format!("phase = \"sand\"\n{keys}"));
+        assert_eq!(found, exact);
+    }
 }
 
 #[test]
@@ -139,9 +125,7 @@ fn a_pore_pressure_that_is_that_of_still_water_is_met() {
     // In the sand, at the interface and in the water: the particles' places and weights do not matter.
     for at in [[0.5, 0.3], [0.31, 0.55], [0.52, 0.77]] {
         let found = measured("pore-pressure", &format!("at = {at:?}"))[0];
-        let exact = 1000.0 * 10.0 * (2.0 - at[1]);
-        let error = (found / exact - 1.0).abs();
-        assert!(error < 1e-12, "{found} Pa for {exact}: {error:e}");
+        near(found / (1000.0 * 10.0 * (2.0 - at[1])), 1.0);
     }
     let dry = measured("pore-pressure", "at = [0.5, 1.5]");
     assert_eq!(dry, [0.0]);

@@ -1,9 +1,25 @@
-//! Worlds of particles at known places.
+//! Worlds of particles at known places, and probes by their keys.
 
-use sph_core::{Store, Vect};
+use sph_core::{Field, Kind, Registry, Role, Store, Vect};
 use sph_kernels::{Kernel, wendland_c2};
 use sph_neighbours::{Domain, World};
-use sph_probes::ProbeScene;
+use sph_probes::{Probe, ProbeEntry, ProbeScene};
+
+/// Gives the particles a column.
+pub fn put<const D: usize, K: Kind>(
+    free: &mut Store<D>,
+    field: Field<K>,
+    items: impl IntoIterator<Item = K::Item<D>>,
+) {
+    free.add(field, Role::State);
+    free.put(field, items.into_iter().collect()).unwrap();
+}
+
+/// The same of one value.
+pub fn fill<const D: usize, K: Kind>(free: &mut Store<D>, field: Field<K>, item: K::Item<D>) {
+    let items = vec![item; free.len()];
+    put(free, field, items);
+}
 
 /// Particles in an open box around the unit square or cube, without walls, gravity or lists.
 pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
@@ -24,6 +40,33 @@ pub fn world<const D: usize>(free: Store<D>, spacing: f64) -> World<D> {
         extent: None,
         communicator: None,
     }
+}
+
+/// The probe of a kind with some keys.
+pub fn built<const D: usize>(kind: &str, keys: &str) -> Box<dyn Probe<D>> {
+    let registry = Registry::<ProbeEntry>::discovered().unwrap();
+    let table = toml::from_str(keys).unwrap();
+    registry.find(kind).unwrap().build::<D>(&table).unwrap()
+}
+
+/// The same, prepared for a scene of two phases.
+pub fn prepared<const D: usize>(kind: &str, keys: &str, phases: [&str; 2]) -> Box<dyn Probe<D>> {
+    let mut probe = built(kind, keys);
+    probe.prepare(&scene(&phases.map(String::from))).unwrap();
+    probe
+}
+
+/// Equal to rounding.
+#[track_caller]
+pub fn near(found: f64, expected: f64) {
+    close(found, expected, 1e-12);
+}
+
+/// Equal to a tolerance.
+#[track_caller]
+pub fn close(found: f64, expected: f64, tolerance: f64) {
+    let error = (found - expected).abs();
+    assert!(error < tolerance, "{found} for {expected}: {error:e}");
 }
 
 /// A scene of phases with these names.

@@ -1,8 +1,10 @@
 //! Surfaces and failure lines against drawn ones, on particles whose places are known.
 
-use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeEntry};
+use sph_probes::Probe;
+
+use super::common::{self, near, put};
 
 const SPACING: f64 = 0.05;
 
@@ -21,17 +23,13 @@ fn world(slope: f64) -> World<2> {
         }
     }
     let mut free = Store::new(positions.len());
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::DISPLACEMENT, Role::State);
-    *free.get_mut(fields::POSITION).unwrap() = positions;
-    *free.get_mut(fields::DISPLACEMENT).unwrap() = moved;
-    super::common::world(free, SPACING)
+    put(&mut free, fields::POSITION, positions);
+    put(&mut free, fields::DISPLACEMENT, moved);
+    common::world(free, SPACING)
 }
 
 fn probe(keys: &str) -> Box<dyn Probe<2>> {
-    let registry = Registry::<ProbeEntry>::discovered().unwrap();
-    let table = toml::from_str(&format!("file = \"line.csv\"\n{keys}")).unwrap();
-    registry.find("line").unwrap().build::<2>(&table).unwrap()
+    common::built("line", &format!("file = \"line.csv\"\n{keys}"))
 }
 
 fn measured(keys: &str, world: &World<2>, rows: Vec<[f64; 2]>) -> Vec<f64> {
@@ -44,34 +42,25 @@ fn measured(keys: &str, world: &World<2>, rows: Vec<[f64; 2]>) -> Vec<f64> {
 fn a_straight_surface_is_met_and_a_shift_is_its_distance() {
     let at = |x: f64, shift: f64| [x, 1.0 + 0.3 * x + shift];
     // Between the first top and the last.
-    let line = |shift| {
-        (2..19)
-            .map(|k| at(0.05 * f64::from(k) + 0.01, shift))
-            .collect()
-    };
+    let place = |k: i32| 0.05 * f64::from(k) + 0.01;
+    let line = |shift| (2..19).map(|k| at(place(k), shift)).collect();
     let found = measured("", &world(0.3), line(0.0));
     assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
     let found = measured("of = \"surface\"", &world(0.3), line(0.02));
-    assert!((found[0] - 0.02).abs() < 1e-12, "{found:?}");
-    let across = 0.02 / (1.0_f64 + 0.3 * 0.3).sqrt();
-    assert!((found[2] - across).abs() < 1e-12, "{found:?}");
+    near(found[0], 0.02);
+    near(found[2], 0.02 / (1.0_f64 + 0.3 * 0.3).sqrt());
 }
 
 #[test]
 fn the_failure_line_is_over_what_has_hardly_moved() {
     // Five rows lie above it.
     let line: Vec<[f64; 2]> = (1..19).map(|k| [0.05 * f64::from(k), 0.75]).collect();
-    let keys = "of = \"failure\"\nmoved = \"1 mm\"";
-    assert!(probe(keys).needs().displacement && !probe("").needs().displacement);
-    let found = measured(keys, &world(0.0), line.clone());
+    let keys = |moved: &str| format!("of = \"failure\"\nmoved = \"{moved}\"");
+    assert!(probe(&keys("1 mm")).needs().displacement && !probe("").needs().displacement);
+    let failed = |moved: &str| measured(&keys(moved), &world(0.0), line.clone());
+    let [found, all, none] = ["1 mm", "20 mm", "10 um"].map(failed);
     assert!(found[0] < 1e-12 && found[1] == 1.0, "{found:?}");
-    let all = measured(
-        "of = \"failure\"\nmoved = \"20 mm\"",
-        &world(0.0),
-        line.clone(),
-    );
-    assert!((all[0] - 0.25).abs() < 1e-12, "{all:?}");
-    let none = measured("of = \"failure\"\nmoved = \"10 um\"", &world(0.0), line);
+    near(all[0], 0.25);
     assert!(none[0].is_nan() && none[1] == 0.0, "{none:?}");
 }
 

@@ -1,8 +1,10 @@
 //! Measurements that scenes compose, on particles whose values are known.
 
-use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeEntry};
+use sph_probes::{Probe, ProbeColumn};
+
+use super::common::{self, put};
 
 const SPACING: f64 = 0.1;
 
@@ -10,28 +12,19 @@ const SPACING: f64 = 0.1;
 fn world() -> World<2> {
     let place = |k: usize| Vect::from([(k as f64 + 0.5) * SPACING, 0.5]);
     let mut free = Store::new(10);
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::VELOCITY, Role::State);
-    free.add(fields::MASS, Role::State);
-    free.add(fields::PRESSURE, Role::Derived);
-    free.add(fields::PHASE, Role::State);
-    let positions: Vec<Vect<2>> = (0..10).map(place).collect();
-    let velocity = positions.iter().map(|x| Vect::from([x[0], -2.0 * x[0]]));
-    *free.get_mut(fields::VELOCITY).unwrap() = velocity.collect();
-    *free.get_mut(fields::MASS).unwrap() = (1..=10).map(f64::from).collect();
-    *free.get_mut(fields::PRESSURE).unwrap() = positions.iter().map(|x| 3.0 * x[0] + 1.0).collect();
-    *free.get_mut(fields::PHASE).unwrap() = (0..10).map(|k| u32::from(k > 3)).collect();
-    *free.get_mut(fields::POSITION).unwrap() = positions;
-    super::common::world(free, SPACING)
+    let velocity = |x: Vect<2>| Vect::from([x[0], -2.0 * x[0]]);
+    let pressure = |x: Vect<2>| 3.0 * x[0] + 1.0;
+    let places = || (0..10).map(place);
+    put(&mut free, fields::POSITION, places());
+    put(&mut free, fields::VELOCITY, places().map(velocity));
+    put(&mut free, fields::MASS, (1..=10).map(f64::from));
+    put(&mut free, fields::PRESSURE, places().map(pressure));
+    put(&mut free, fields::PHASE, (0..10).map(|k| u32::from(k > 3)));
+    common::world(free, SPACING)
 }
 
 fn built(kind: &str, keys: &str) -> Box<dyn Probe<2>> {
-    let registry = Registry::<ProbeEntry>::discovered().unwrap();
-    let table = toml::from_str(keys).unwrap();
-    let mut probe = registry.find(kind).unwrap().build::<2>(&table).unwrap();
-    let names = ["air", "water"].map(String::from);
-    probe.prepare(&super::common::scene(&names)).unwrap();
-    probe
+    common::prepared(kind, keys, ["air", "water"])
 }
 
 fn measured(keys: &str) -> Vec<f64> {
@@ -47,70 +40,54 @@ fn assert_near(found: &[f64], expected: &[f64]) {
 
 #[test]
 fn quantities_are_columns_components_coordinates_and_energies() {
-    assert_near(
-        &measured("field = 'x'\nreduce = ['min', 'max']"),
-        &[0.05, 0.95],
-    );
-    assert_near(&measured("field = 'velocity.y'"), &[-1.0]);
     let speed = 0.5 * 5.0_f64.sqrt();
-    assert_near(&measured("field = 'speed'"), &[speed]);
-    assert_near(&measured("field = 'velocity'"), &[speed]);
-    let energy: f64 = (0..10)
-        .map(|k| 0.5 * (k as f64 + 1.0) * 5.0 * (0.05 + 0.1 * k as f64).powi(2))
-        .sum();
-    assert_near(
-        &measured("field = 'kinetic_energy'\nreduce = ['sum']"),
-        &[energy],
-    );
+    let energy = |k: i32| 0.5 * f64::from(k + 1) * 5.0 * (0.05 + 0.1 * f64::from(k)).powi(2);
+    let energy = (0..10).map(energy).sum();
+    for (keys, expected) in [
+        ("field = 'x'\nreduce = ['min', 'max']", &[0.05, 0.95][..]),
+        ("field = 'velocity.y'", &[-1.0]),
+        ("field = 'speed'", &[speed]),
+        ("field = 'velocity'", &[speed]),
+        ("field = 'kinetic_energy'\nreduce = ['sum']", &[energy]),
+    ] {
+        assert_near(&measured(keys), expected);
+    }
 }
 
 #[test]
 fn phases_and_bounds_choose_the_particles() {
-    let total = |keys: &str| measured(&format!("field = 'pressure'\nreduce = ['total']\n{keys}"));
-    assert_near(&total(""), &[10.0]);
-    assert_near(&total("phase = 'air'"), &[4.0]);
-    assert_near(
-        &total("phase = 'air'\nabove = { x = 0.1 }\nbelow = { pressure = 2.0 }"),
-        &[2.0],
-    );
-    assert_near(&total("weight = 'mass'\nphase = 'air'"), &[10.0]);
-    let share =
-        "field = 'x'\nreduce = ['share']\nweight = 'mass'\nphase = 'air'\nabove = { x = 0.3 }";
-    assert_near(&measured(share), &[0.4]);
+    let bounds = "phase = 'air'\nabove = { x = 0.1 }\nbelow = { pressure = 2.0 }";
+    let heavy = "weight = 'mass'\nphase = 'air'";
+    for (keys, total) in [
+        ("", 10.0),
+        ("phase = 'air'", 4.0),
+        (bounds, 2.0),
+        (heavy, 10.0),
+    ] {
+        let keys = format!("field = 'pressure'\nreduce = ['total']\n{keys}");
+        assert_near(&measured(&keys), &[total]);
+    }
+    let share = format!("field = 'x'\nreduce = ['share']\n{heavy}\nabove = {{ x = 0.3 }}");
+    assert_near(&measured(&share), &[0.4]);
 }
 
 #[test]
 fn weights_enter_means_and_quantiles() {
-    let mean = (1..=10)
-        .map(|k| f64::from(k * k) - 0.5 * f64::from(k))
-        .sum::<f64>()
-        * 0.1
-        / 55.0;
+    let moments = (1..=10).map(|k| f64::from(k * k) - 0.5 * f64::from(k));
+    let mean = moments.sum::<f64>() * 0.1 / 55.0;
     assert_near(&measured("field = 'x'\nweight = 'mass'"), &[mean]);
-    assert_near(
-        &measured("field = 'x'\nreduce = []\nquantiles = [0.5]"),
-        &[0.45],
-    );
-    assert_near(
-        &measured("field = 'x'\nreduce = []\nquantiles = [0.5]\nweight = 'mass'"),
-        &[0.65],
-    );
+    let median = "field = 'x'\nreduce = []\nquantiles = [0.5]";
+    assert_near(&measured(median), &[0.45]);
+    assert_near(&measured(&format!("{median}\nweight = 'mass'")), &[0.65]);
 }
 
 #[test]
 fn a_line_is_fitted_and_slices_are_curves() {
     assert_near(&measured("field = 'pressure'\nfit = 'x'"), &[2.5, 3.0, 0.0]);
-    let probe = built(
-        "statistic",
-        "field = 'pressure'\nreduce = ['mean', 'max']\nalong = 'x'",
-    );
+    let keys = "field = 'pressure'\nreduce = ['mean', 'max']\nalong = 'x'";
+    let probe = built("statistic", keys);
     let curves = probe.as_curves().expect("curves");
-    let names: Vec<_> = curves
-        .curve_columns()
-        .into_iter()
-        .map(|c| (c.suffix, c.unit))
-        .collect();
-    assert_eq!(names[0], ("x".to_string(), "m"));
+    assert_eq!(curves.curve_columns()[0], ProbeColumn::named("x", "m"));
     let rows = curves.curves(&world()).unwrap();
     assert_eq!(rows.len(), 5);
     assert_near(&rows[1], &[0.3, 1.9, 2.05]);
@@ -119,33 +96,22 @@ fn a_line_is_fitted_and_slices_are_curves() {
 
 #[test]
 fn unknown_fields_are_named_with_the_nearest() {
-    let told = |field: &str| {
+    for (field, words) in [
+        ("presure", "did you mean `pressure`"),
+        ("velocity.z", "2 components"),
+    ] {
         let probe = built("statistic", &format!("field = '{field}'"));
-        probe.measure(&world()).unwrap_err().to_string()
-    };
-    assert!(
-        told("presure").contains("did you mean `pressure`"),
-        "{}",
-        told("presure")
-    );
-    assert!(
-        told("velocity.z").contains("2 components"),
-        "{}",
-        told("velocity.z")
-    );
+        let message = probe.measure(&world()).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    }
 }
 
 /// Probes with names of their own are measurements.
 #[test]
 fn presets_measure_the_same() {
-    let front = built("front", "axis = 'x'\nquantile = 0.7")
-        .measure(&world())
-        .unwrap();
+    let front = |keys: &str| built("front", &format!("axis = 'x'\n{keys}")).measure(&world());
     let own = measured("field = 'x'\nreduce = []\nquantiles = [0.7]");
-    assert_near(&front, &[own[0] + 0.5 * SPACING]);
-    let back = built(
-        "front",
-        "axis = 'x'\ndirection = 'backward'\nphase = 'water'",
-    );
-    assert_near(&back.measure(&world()).unwrap(), &[0.4]);
+    assert_near(&front("quantile = 0.7").unwrap(), &[own[0] + 0.5 * SPACING]);
+    let back = front("direction = 'backward'\nphase = 'water'");
+    assert_near(&back.unwrap(), &[0.4]);
 }

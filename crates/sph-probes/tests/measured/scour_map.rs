@@ -1,8 +1,10 @@
 //! The scour map, on a bed with a pit of known depth.
 
-use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_core::{Store, Vect, fields};
 use sph_neighbours::World;
-use sph_probes::{Probe, ProbeEntry};
+use sph_probes::Probe;
+
+use super::common::{self, near, put};
 
 const SPACING: f64 = 0.05;
 /// Top of the bed, m.
@@ -19,35 +21,19 @@ fn world() -> World<3> {
             (true, false) => 9,
             _ => 8,
         };
-        rows.extend(
-            (0..grains + 2).map(|k| (Vect::from([at(i), at(j), at(k)]), u32::from(k >= grains))),
-        );
+        let phase = |k: u32| u32::from(k >= grains);
+        rows.extend((0..grains + 2).map(|k| (Vect::from([i, j, k].map(at)), phase(k))));
     }
-    rows.push((Vect::from([at(1), at(1), at(9)]), 0));
+    rows.push((Vect::from([1, 1, 9].map(at)), 0));
     let mut free = Store::new(rows.len());
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::PHASE, Role::State);
-    *free.get_mut(fields::POSITION).unwrap() = rows.iter().map(|r| r.0).collect();
-    *free.get_mut(fields::PHASE).unwrap() = rows.iter().map(|r| r.1).collect();
-    super::common::world(free, SPACING)
+    put(&mut free, fields::POSITION, rows.iter().map(|r| r.0));
+    put(&mut free, fields::PHASE, rows.iter().map(|r| r.1));
+    common::world(free, SPACING)
 }
 
 fn probe(keys: &str) -> Box<dyn Probe<3>> {
-    let registry = Registry::<ProbeEntry>::discovered().unwrap();
     let keys = format!("phase = \"sand\"\nlevel = {LEVEL}\n{keys}");
-    let entry = registry.find("scour-map").unwrap();
-    let mut probe = entry.build::<3>(&toml::from_str(&keys).unwrap()).unwrap();
-    probe
-        .prepare(&super::common::scene(&["sand", "water"].map(String::from)))
-        .unwrap();
-    probe
-}
-
-fn near(found: f64, expected: f64) {
-    assert!(
-        (found - expected).abs() < 1e-12,
-        "{found} against {expected}"
-    );
+    common::prepared("scour-map", &keys, ["sand", "water"])
 }
 
 #[test]
@@ -56,9 +42,8 @@ fn a_pit_has_its_depth_and_volume_and_grains_in_suspension_do_not_fill_it() {
     near(found[0], 3.0 * SPACING);
     near(found[1], SPACING);
     near(found[2], 16.0 * SPACING * SPACING * 3.0 * SPACING);
-    let outside = probe("within = [[0.0, 0.2], [0.4, 0.4]]")
-        .measure(&world())
-        .unwrap();
+    let outside = probe("within = [[0.0, 0.2], [0.4, 0.4]]");
+    let outside = outside.measure(&world()).unwrap();
     near(outside[0], 0.0);
     near(outside[1], SPACING);
     near(outside[2], 0.0);
@@ -73,13 +58,11 @@ fn a_row_half_gone_counts_half_and_a_bed_gone_is_as_deep_as_its_ground() {
         let beside = x[0] > 0.3 && x[1] > 0.3;
         top || beside
     };
-    let water: Vec<u32> = {
-        let phases = world.free.get(fields::PHASE).unwrap().iter();
-        let both = phases.zip(world.free.get(fields::POSITION).unwrap());
-        both.map(|(phase, x)| if gone(x) { 1 } else { *phase })
-            .collect()
-    };
-    *world.free.get_mut(fields::PHASE).unwrap() = water;
+    let phases = world.free.get(fields::PHASE).unwrap().iter();
+    let both = phases.zip(world.free.get(fields::POSITION).unwrap());
+    let water = both.map(|(phase, x)| if gone(x) { 1 } else { *phase });
+    let water: Vec<u32> = water.collect();
+    put(&mut world.free, fields::PHASE, water);
     let all = "within = [[0.0, 0.0], [0.4, 0.4]]";
     let rows = probe(all).as_curves().unwrap().curves(&world).unwrap();
     let depth = |x: f64, y: f64| {

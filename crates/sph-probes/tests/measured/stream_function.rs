@@ -2,9 +2,11 @@
 
 use std::f64::consts::PI;
 
-use sph_core::{Registry, Role, Store, Vect, fields};
+use sph_core::{Registry, Store, Vect, fields};
 use sph_neighbours::World;
 use sph_probes::{Probe, ProbeEntry};
+
+use super::common::{self, close, fill, put};
 
 /// ψ = sin²(πx) sin²(πy)·¼ in the unit square: both velocities vanish on all sides.
 fn world(rows: usize, scale: f64) -> World<2> {
@@ -14,16 +16,11 @@ fn world(rows: usize, scale: f64) -> World<2> {
     let u = |x: &Vect<2>| scale * 0.25 * PI * (PI * x[0]).sin().powi(2) * (2.0 * PI * x[1]).sin();
     let v = |x: &Vect<2>| -scale * 0.25 * PI * (PI * x[1]).sin().powi(2) * (2.0 * PI * x[0]).sin();
     let mut free = Store::new(positions.len());
-    free.add(fields::POSITION, Role::State);
-    free.add(fields::VELOCITY, Role::State);
-    free.add(fields::VOLUME, Role::Derived);
-    free.get_mut(fields::VOLUME)
-        .unwrap()
-        .fill(spacing * spacing);
-    *free.get_mut(fields::VELOCITY).unwrap() =
-        positions.iter().map(|x| Vect::from([u(x), v(x)])).collect();
-    *free.get_mut(fields::POSITION).unwrap() = positions;
-    super::common::world(free, spacing)
+    let velocity = |x: &Vect<2>| Vect::from([u(x), v(x)]);
+    put(&mut free, fields::VELOCITY, positions.iter().map(velocity));
+    fill(&mut free, fields::VOLUME, spacing * spacing);
+    put(&mut free, fields::POSITION, positions);
+    common::world(free, spacing)
 }
 
 fn probe(keys: &str) -> Result<Box<dyn Probe<2>>, String> {
@@ -39,26 +36,20 @@ fn errors(keys: &str, rows: [usize; 2]) -> [f64; 2] {
     let probe = probe(&format!("{SQUARE}\n{keys}")).unwrap();
     rows.map(|rows| {
         let found = probe.measure(&world(rows, -1.0)).unwrap();
-        assert!((found[1] - 0.5).abs() < 1e-9, "{found:?}");
-        assert!((found[2] - 0.5).abs() < 0.5 / rows as f64, "{found:?}");
+        close(found[1], 0.5, 1e-9);
+        close(found[2], 0.5, 0.5 / rows as f64);
         (found[0] - 0.25).abs() / 0.25
     })
 }
 
 #[test]
 fn the_strength_converges_with_the_second_order_and_corrected_faster() {
-    let [coarse, fine] = errors("", [32, 64]);
-    println!("plain: {coarse:.2e} {fine:.2e}");
-    assert!(
-        (coarse / fine).log2() > 1.8 && fine < 0.02,
-        "{coarse} {fine}"
-    );
-    let [coarse, fine] = errors("corrections = 1", [32, 64]);
-    println!("corrected: {coarse:.2e} {fine:.2e}");
-    assert!(
-        (coarse / fine).log2() > 1.9 && fine < 2e-3,
-        "{coarse} {fine}"
-    );
+    for (keys, least, most) in [("", 1.8, 0.02), ("corrections = 1", 1.9, 2e-3)] {
+        let [coarse, fine] = errors(keys, [32, 64]);
+        println!("{keys}: {coarse:.2e} {fine:.2e}");
+        let order = (coarse / fine).log2();
+        assert!(order > least && fine < most, "{coarse} {fine}");
+    }
 }
 
 #[test]

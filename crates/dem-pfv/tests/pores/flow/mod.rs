@@ -14,32 +14,23 @@ use dem_pfv::flow::{
 };
 use dem_pfv::triangulation::{Sphere, Triangulation, Wall};
 
-const BOX25: &str = include_str!("../../packings/box25.txt");
-const BOX200: &str = include_str!("../../packings/box200.txt");
-const BOX1000: &str = include_str!("../../packings/box1000_mono.txt");
+use crate::{BOX25, BOX200, BOX1000, spheres};
 
-/// Lines of numbers.
-fn table(text: &str) -> Vec<Vec<f64>> {
-    let lines = text.lines().filter(|l| !l.starts_with('#'));
-    let numbers = |l: &str| {
-        l.split_whitespace()
-            .map(|w| w.parse().expect("a number"))
-            .collect()
-    };
-    lines.map(numbers).collect()
-}
-
-fn spheres(text: &str) -> Vec<Sphere> {
-    table(text)
-        .iter()
-        .map(|n| Sphere::new([n[0], n[1], n[2]], n[3]))
-        .collect()
-}
+const PACKINGS: [(&str, &str); 3] = [
+    ("box25", BOX25),
+    ("box200", BOX200),
+    ("box1000_mono", BOX1000),
+];
 
 /// No-slip or slip on the four lateral walls; the ends y₋, y₊ let fluid through and stick as the laterals do.
 fn geometry(spheres: &[Sphere], grip: SlipCondition, angles: SolidAngles) -> PoreGeometry {
     let mesh = Triangulation::within(spheres, &Wall::cuboid([0.0; 3], [1.0; 3])).expect("cells");
     PoreGeometry::new(mesh, &[grip; 6], angles).expect("pores")
+}
+
+/// A packing between sticking walls, by signed angles.
+fn packed(text: &str) -> PoreGeometry {
+    geometry(&spheres(text), SlipCondition::NoSlip, SolidAngles::Signed)
 }
 
 /// p = 0 at y = 0 and 1 Pa at y = 1.
@@ -54,6 +45,12 @@ fn drop_along_y(geometry: &PoreGeometry) -> Boundary {
 fn direct(geometry: &PoreGeometry, boundary: &Boundary, storage: Option<Storage>) -> FlowSystem {
     let law = hydraulic();
     FlowSystem::new(geometry, boundary, &law, 1.0, storage, Solver::Direct).expect("a system")
+}
+
+/// Largest difference of two lists.
+fn most_apart(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
 }
 
 /// What a permeameter shows of a unit cube with µ = 1 Pa s.

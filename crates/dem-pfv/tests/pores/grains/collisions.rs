@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use dem_pfv::grains::{ContactLaw, Grain, GrainSystem, HertzMindlin, LinearElastic, Setup, Wall};
+use dem_pfv::grains::{ContactLaw, Grain, GrainSystem, HertzMindlin, Setup};
 
-use crate::grains::{MODULUS, RADIUS, STIFFNESS, close, grain, kilogram, law, spin, velocity};
+use crate::close;
+use crate::grains::{RADIUS, STIFFNESS, floor, grain, kilogram, law, run, spin, velocity};
 
 /// Time from the first touch to the opening, found between steps, and the speed ratio of a head-on collision.
 fn head_on(law: impl ContactLaw + 'static, speed: f64, step: f64) -> (f64, f64) {
@@ -96,10 +97,9 @@ fn hertz_restitution_does_not_depend_on_speed() {
 fn unequal_spheres_keep_momentum_and_energy() {
     let small = Grain::new([0.15, 0.0, 0.0], 0.05, kilogram());
     let grains = vec![grain(0.0, 0.0, 0.0).moving([0.1, 0.0, 0.0]), small];
-    let mut system =
-        GrainSystem::new(Setup::new(grains, LinearElastic::new(MODULUS, 0.5, 0.0))).expect("pair");
+    let mut system = GrainSystem::new(Setup::new(grains, law(0.5, 0.0, 0.0))).expect("pair");
     let step = 1e-3 * system.critical_step();
-    crate::grains::run(&mut system, step, 20_000);
+    run(&mut system, step, 20_000);
     let (m1, m2) = (system.grains.mass[0], system.grains.mass[1]);
     close(velocity(&system, 0).x, 0.1 * (m1 - m2) / (m1 + m2), 1e-7);
     close(velocity(&system, 1).x, 0.2 * m1 / (m1 + m2), 1e-7);
@@ -108,11 +108,10 @@ fn unequal_spheres_keep_momentum_and_energy() {
 /// A sphere hits a wall with equal normal and tangential parts, and so deep as δ.
 fn oblique(ratio: f64, friction: f64, normal: f64, tangential: f64) -> GrainSystem {
     let ball = grain(0.0, 0.0, RADIUS).moving([tangential, 0.0, -normal]);
-    let floor = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
-    let setup = Setup::new(vec![ball], law(ratio, friction, 0.0)).walls([floor]);
+    let setup = Setup::new(vec![ball], law(ratio, friction, 0.0)).walls([floor()]);
     let mut system = GrainSystem::new(setup).expect("a ball");
     let step = 1e-3 / STIFFNESS.sqrt();
-    crate::grains::run(&mut system, step, 3500); // longer than π
+    run(&mut system, step, 3500); // longer than π
     system
 }
 

@@ -5,6 +5,7 @@ use dem_pfv::grains::{
     Setup, State, Wall,
 };
 
+use crate::assert_same_on_threads;
 use crate::grains::{RADIUS, kilogram, run};
 
 fn laws() -> Vec<Box<dyn ContactLaw>> {
@@ -34,20 +35,13 @@ fn heap() -> GrainSystem {
         Grain::new(place, RADIUS, kilogram()).moving([0.3, -0.2, -0.5])
     });
     let side = 12.0 * 2.02 * RADIUS + 0.1 * RADIUS;
-    let corners = vec![
-        [-1.0, -1.0, 0.0],
-        [4.0, -1.0, 0.0],
-        [4.0, 4.0, 0.0],
-        [-1.0, 4.0, 0.0],
-    ];
+    let corners = [(-1.0, -1.0), (4.0, -1.0), (4.0, 4.0), (-1.0, 4.0)];
+    let corners = corners.map(|(x, y)| [x, y, 0.0]).to_vec();
     let mut floor = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]);
     floor.law = 1;
     floor.spin.z = 0.1;
-    let walls = [
-        Wall::new([0.0; 3], [1.0, 0.0, 0.0]).with_law(1),
-        Wall::new([side, 0.0, 0.0], [-1.0, 0.0, 0.0]).with_law(1),
-    ];
-    let mut walls = walls.to_vec();
+    let mut walls = [(0.0, 1.0), (side, -1.0)]
+        .map(|(x, normal)| Wall::new([x, 0.0, 0.0], [normal, 0.0, 0.0]).with_law(1));
     walls[1].area = Some(side * side);
     walls[1].control = Control::Stress {
         stress: 100.0,
@@ -58,50 +52,31 @@ fn heap() -> GrainSystem {
         laws: laws(),
         ..Setup::default()
     };
-    let setup = setup
-        .walls(walls)
-        .mesh(floor)
-        .periodic(1, 0.0, 12.0 * 2.02 * RADIUS);
-    GrainSystem::new(setup.gravity([0.0, 0.0, -9.81]).damping(0.05)).expect("a heap")
+    let setup = setup.walls(walls).mesh(floor).damping(0.05);
+    let setup = setup.periodic(1, 0.0, 12.0 * 2.02 * RADIUS);
+    GrainSystem::new(setup.gravity([0.0, 0.0, -9.81])).expect("a heap")
 }
 
 fn bits(system: &GrainSystem) -> Vec<u64> {
     let g = &system.grains;
     let columns = [&g.position, &g.velocity, &g.spin, &g.contact_force];
-    let vectors = columns
-        .into_iter()
-        .flatten()
-        .flat_map(|v| v.iter().copied());
-    let turns = g.orientation.iter().flatten().copied();
-    let walls = system
-        .walls
-        .iter()
-        .flat_map(|w| w.point.iter().copied().collect::<Vec<_>>());
-    vectors
-        .chain(turns)
-        .chain(walls)
-        .map(f64::to_bits)
-        .collect()
+    let vectors = columns.into_iter().flatten().flatten();
+    let turns = g.orientation.iter().flatten();
+    let walls = system.walls.iter().flat_map(|w| &w.point);
+    let all = vectors.chain(turns).chain(walls);
+    all.map(|x| x.to_bits()).collect()
 }
 
 const STEP: f64 = 5e-4;
 
 #[test]
 fn one_two_and_four_threads_give_the_same_bits() {
-    let results: Vec<_> = [1, 2, 4]
-        .into_iter()
-        .map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("threads").install(|| {
-                let mut system = heap();
-                run(&mut system, STEP, 300);
-                assert!(system.contacts().count() > 1000 && system.renewals > 2);
-                bits(&system)
-            })
-        })
-        .collect();
-    assert_eq!(results[0], results[1]);
-    assert_eq!(results[0], results[2]);
+    assert_same_on_threads(|| {
+        let mut system = heap();
+        run(&mut system, STEP, 300);
+        assert!(system.contacts().count() > 1000 && system.renewals > 2);
+        bits(&system)
+    });
 }
 
 #[test]

@@ -1,21 +1,17 @@
 //! What is conserved.
 
-use dem_pfv::grains::{GrainSystem, HertzMindlin, LinearElastic, Partner, Setup, Vector, Wall};
+use dem_pfv::grains::{GrainSystem, HertzMindlin, Partner, Setup, Vector};
 
-use crate::grains::{MODULUS, RADIUS, STIFFNESS, close, grain, law, position, run, velocity};
+use crate::close;
+use crate::grains::{RADIUS, STIFFNESS, floor, grain, jaws, law, position, run, velocity};
 
 /// A ball pressed between two walls is a linear oscillator, for which the leap-frog conserves
 /// ½ m v₋ v₊ + ½ k x² to rounding.
 #[test]
 fn a_pressed_ball_keeps_its_energy_for_a_hundred_thousand_steps() {
-    let half = RADIUS * 0.95;
-    let walls = [
-        Wall::new([0.0, 0.0, -half], [0.0, 0.0, 1.0]),
-        Wall::new([0.0, 0.0, half], [0.0, 0.0, -1.0]),
-    ];
     let ball = grain(0.0, 0.0, 0.01 * RADIUS);
-    let mut system =
-        GrainSystem::new(Setup::new(vec![ball], law(0.0, 0.0, 0.0)).walls(walls)).expect("ball");
+    let setup = Setup::new(vec![ball], law(0.0, 0.0, 0.0)).walls(jaws());
+    let mut system = GrainSystem::new(setup).expect("ball");
     let step = 0.3 * system.critical_step();
     let energy = |system: &mut GrainSystem| {
         let (x, before) = (position(system, 0).z, velocity(system, 0).z);
@@ -39,11 +35,8 @@ fn a_pair_that_sticks_gives_back_its_energy() {
         grain(-RADIUS, shift, 0.0).moving([0.05, 0.0, 0.0]),
         grain(RADIUS, -shift, 0.0).moving([-0.05, 0.0, 0.0]),
     ];
-    let mut system = GrainSystem::new(Setup::new(
-        grains,
-        LinearElastic::new(MODULUS, 2.0 / 7.0, 10.0),
-    ))
-    .expect("pair");
+    let setup = Setup::new(grains, law(2.0 / 7.0, 10.0, 0.0));
+    let mut system = GrainSystem::new(setup).expect("pair");
     let before = system.kinetic_energy();
     let step = 1e-2 * system.critical_step();
     run(&mut system, step, 40_000);
@@ -57,13 +50,9 @@ fn a_pair_that_sticks_gives_back_its_energy() {
 #[test]
 fn a_bouncing_ball_neither_rises_nor_sinks() {
     let height = 3.0 * RADIUS;
-    let floor = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
-    let setup = Setup::new(
-        vec![grain(0.0, 0.0, height)],
-        HertzMindlin::new(1e6, 0.3, 0.5),
-    );
-    let setup = setup.walls([floor]).gravity([0.0, 0.0, -9.81]);
-    let mut system = GrainSystem::new(setup).expect("a ball");
+    let ball = vec![grain(0.0, 0.0, height)];
+    let setup = Setup::new(ball, HertzMindlin::new(1e6, 0.3, 0.5)).walls([floor()]);
+    let mut system = GrainSystem::new(setup.gravity([0.0, 0.0, -9.81])).expect("a ball");
     let step = 1e-5;
     let (mut highest, mut bounces) = (0.0_f64, 0);
     let mut last = 0.0;
@@ -79,11 +68,8 @@ fn a_bouncing_ball_neither_rises_nor_sinks() {
     assert!(bounces >= 2);
     // Each impact adds an error of second order in ω Δt of either sign, ω the frequency of the contact.
     let omega = (STIFFNESS * 10.0_f64).sqrt();
-    close(
-        highest / height,
-        1.0,
-        f64::from(bounces) * (omega * step).powi(2),
-    );
+    let error = f64::from(bounces) * (omega * step).powi(2);
+    close(highest / height, 1.0, error);
 }
 
 /// A cloud without walls, with friction, dashpots and rolling: forces and moments cancel exactly.
@@ -92,14 +78,9 @@ fn a_free_cloud_keeps_its_momentum_and_angular_momentum() {
     let mut grains = Vec::new();
     for i in 0..64 {
         let at = |k: i32| f64::from(i / k % 4) * 2.05 * RADIUS;
-        let place = [at(1), at(4), at(16)];
+        let (x, y, z) = (at(1), at(4), at(16));
         // It falls together and turns.
-        let swirl = [
-            0.6 - place[1] - place[0],
-            -place[1] + place[0],
-            0.3 - place[2],
-        ];
-        let mut ball = grain(place[0], place[1], place[2]).moving(swirl);
+        let mut ball = grain(x, y, z).moving([0.6 - y - x, -y + x, 0.3 - z]);
         ball.spin = [1.0, f64::from(i % 3), -1.0].into();
         grains.push(ball);
     }
@@ -120,8 +101,8 @@ fn a_free_cloud_keeps_its_momentum_and_angular_momentum() {
     let mut touched = 0;
     for _ in 0..2000 {
         system.step(step).expect("a step");
-        touched += system
-            .contacts()
+        let contacts = system.contacts();
+        touched += contacts
             .filter(|c| matches!(c.partner, Partner::Grain(_)))
             .count();
     }

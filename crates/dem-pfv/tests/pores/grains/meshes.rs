@@ -1,20 +1,16 @@
 //! Spheres on triangles.
 
-use dem_pfv::grains::{GrainSystem, Mesh, Setup, Vector, Wall};
+use dem_pfv::grains::{Grain, GrainSystem, Mesh, Setup, Vector};
 
-use crate::grains::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run, spin, velocity};
+use crate::close;
+use crate::grains::{GRAVITY, RADIUS, STIFFNESS, floor, grain, law, position, run, spin, velocity};
 
 /// A plate z = 0 of 2·n² triangles that share no vertex, as files of triangles have them.
 fn plate(n: i32) -> Mesh {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for i in 0..n * n {
-        let corner = |a: i32, b: i32| {
-            [
-                f64::from(i % n + a) / 4.0 - 1.0,
-                f64::from(i / n + b) / 4.0 - 1.0,
-                0.0,
-            ]
-        };
+        let along = |k: i32| f64::from(k) / 4.0 - 1.0;
+        let corner = |a: i32, b: i32| [along(i % n + a), along(i / n + b), 0.0];
         for three in [[(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)]] {
             let first = vertices.len() as u32;
             vertices.extend(three.map(|(a, b)| corner(a, b)));
@@ -24,20 +20,26 @@ fn plate(n: i32) -> Mesh {
     Mesh::new(vertices, triangles)
 }
 
-fn ball_on(mesh: Option<Mesh>) -> GrainSystem {
-    let start = grain(-0.5, -0.3, RADIUS - GRAVITY / STIFFNESS).moving([0.6, 0.43, 0.0]);
-    let mut setup = Setup::new(vec![start], law(0.5, 0.3, 0.1)).gravity([0.0, 0.0, -GRAVITY]);
-    match mesh {
-        Some(mesh) => setup = setup.mesh(mesh),
-        None => setup = setup.walls([Wall::new([0.0; 3], [0.0, 0.0, 1.0])]),
-    }
-    GrainSystem::new(setup).expect("a ball")
+/// A ball by itself, under gravity on a mesh or on the floor.
+fn ball_on(mesh: Option<Mesh>, ball: Grain) -> GrainSystem {
+    let setup = Setup::new(vec![ball], law(0.5, 0.3, 0.1)).gravity([0.0, 0.0, -GRAVITY]);
+    GrainSystem::new(match mesh {
+        Some(mesh) => setup.mesh(mesh),
+        None => setup.walls([floor()]),
+    })
+    .expect("a ball")
+}
+
+/// In equilibrium above z = 0.
+fn lying() -> Grain {
+    grain(-0.5, -0.3, RADIUS - GRAVITY / STIFFNESS)
 }
 
 /// Sliding, then rolling over edges and corners: nothing is felt of them.
 #[test]
 fn a_plate_of_triangles_is_a_wall() {
-    let (mut on_wall, mut on_mesh) = (ball_on(None), ball_on(Some(plate(8))));
+    let ball = lying().moving([0.6, 0.43, 0.0]);
+    let [mut on_wall, mut on_mesh] = [None, Some(plate(8))].map(|mesh| ball_on(mesh, ball));
     let step = 0.2 * on_wall.critical_step();
     for _ in 0..4000 {
         on_wall.step(step).expect("a step");
@@ -60,12 +62,9 @@ fn a_ridge_counts_once_and_a_valley_twice() {
             [0.0, -1.0, sign],
         ];
         let mesh = Mesh::new(vertices, vec![[0, 1, 2], [1, 0, 3]]);
-        let setup = Setup::new(vec![grain(0.0, 0.0, height)], law(0.5, 0.3, 0.1)).mesh(mesh);
-        let system = GrainSystem::new(setup).expect("a ball");
-        system
-            .contacts()
-            .map(|c| (c.normal, c.overlap))
-            .collect::<Vec<_>>()
+        let system = ball_on(Some(mesh), grain(0.0, 0.0, height));
+        let contacts = system.contacts().map(|c| (c.normal, c.overlap));
+        contacts.collect::<Vec<_>>()
     };
     let ridge = touches(-1.0, 0.95 * RADIUS);
     assert_eq!(ridge.len(), 1);
@@ -86,8 +85,7 @@ fn a_corner_counts_once() {
     let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mesh = Mesh::new(vertices, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
     let at = -0.97 * RADIUS / 3.0_f64.sqrt();
-    let setup = Setup::new(vec![grain(at, at, at)], law(0.5, 0.3, 0.1)).mesh(mesh);
-    let system = GrainSystem::new(setup).expect("a ball");
+    let system = ball_on(Some(mesh), grain(at, at, at));
     assert_eq!(system.contacts().count(), 1);
 }
 
@@ -96,9 +94,7 @@ fn a_corner_counts_once() {
 fn a_belt_drags_a_ball_to_two_sevenths() {
     let mut belt = plate(8);
     belt.velocity = Vector::new(0.3, 0.0, 0.0);
-    let start = grain(-0.5, -0.3, RADIUS - GRAVITY / STIFFNESS);
-    let setup = Setup::new(vec![start], law(0.5, 0.3, 0.1)).gravity([0.0, 0.0, -GRAVITY]);
-    let mut system = GrainSystem::new(setup.mesh(belt)).expect("a ball");
+    let mut system = ball_on(Some(belt), lying());
     let step = 0.2 * system.critical_step();
     run(&mut system, step, 2000);
     let depth = GRAVITY / STIFFNESS / RADIUS;
@@ -112,20 +108,14 @@ fn a_belt_drags_a_ball_to_two_sevenths() {
 fn a_turning_mesh_moves_what_lies_on_it() {
     let mut table = plate(8);
     table.spin.z = 1.0;
-    let setup = Setup::new(vec![grain(0.2, 0.0, 0.999 * RADIUS)], law(0.5, 0.3, 0.1));
-    let setup = setup.mesh(table).gravity([0.0, 0.0, -GRAVITY]);
-    let mut system = GrainSystem::new(setup).expect("a ball");
+    let mut system = ball_on(Some(table), grain(0.2, 0.0, 0.999 * RADIUS));
     let step = 0.2 * system.critical_step();
-    system.step(step).expect("a step");
-    system.step(step).expect("a step");
+    run(&mut system, step, 2);
     system.evaluate().expect("forces");
     // At (0.2, 0) the table moves along +y and takes the ball with it.
     assert!(system.grains.contact_force[0].y > 0.0);
     let vertex = system.meshes[0].vertices[0];
     close(vertex.norm(), 2.0_f64.sqrt(), 1e-12);
-    close(
-        vertex.y.atan2(vertex.x),
-        (-1.0_f64).atan2(-1.0) + 2.0 * step,
-        1e-9,
-    );
+    let turned = (-1.0_f64).atan2(-1.0) + 2.0 * step;
+    close(vertex.y.atan2(vertex.x), turned, 1e-9);
 }

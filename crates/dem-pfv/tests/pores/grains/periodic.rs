@@ -2,18 +2,16 @@
 
 use dem_pfv::grains::{GrainSystem, Setup, Vector};
 
-use crate::grains::{close, grain, law, position, run, velocity};
+use crate::close;
+use crate::grains::{grain, law, position, repeated, run, velocity};
 
 fn pair(first: f64, second: f64) -> GrainSystem {
     let grains = vec![
         grain(first, 0.5, 0.5).moving([0.2, 0.0, 0.0]),
         grain(second, 0.52, 0.5),
     ];
-    let mut setup = Setup::new(grains, law(0.5, 0.3, 0.1));
-    for axis in 0..3 {
-        setup = setup.periodic(axis, 0.0, 1.0);
-    }
-    GrainSystem::new(setup).expect("pair")
+    let setup = Setup::new(grains, law(0.5, 0.3, 0.1));
+    GrainSystem::new(repeated(setup, 1.0)).expect("pair")
 }
 
 /// The same impact in the middle and across the ends, then on and around the box.
@@ -37,12 +35,9 @@ fn an_impact_across_the_ends_is_one_in_the_middle() {
 
 #[test]
 fn a_lone_grain_comes_round() {
-    let mut setup = Setup::new(
-        vec![grain(0.9, 0.5, 0.5).moving([1.0, 0.0, 0.0])],
-        law(0.5, 0.0, 0.0),
-    );
-    setup = setup.periodic(0, 0.0, 1.0);
-    let mut system = GrainSystem::new(setup).expect("grain");
+    let grain = grain(0.9, 0.5, 0.5).moving([1.0, 0.0, 0.0]);
+    let setup = Setup::new(vec![grain], law(0.5, 0.0, 0.0));
+    let mut system = GrainSystem::new(setup.periodic(0, 0.0, 1.0)).expect("grain");
     let step = 1.0 / 1024.0;
     assert!(step < system.critical_step());
     run(&mut system, step, 3 * 1024);

@@ -6,7 +6,8 @@ use dem_pfv::grains::{
 use dem_pfv::require;
 use sph_core::{plugin, plugins_of};
 
-use crate::grains::{RADIUS, close, grain, position};
+use crate::grains::{RADIUS, grain, position, run};
+use crate::{assert_says, close};
 
 /// Repels with k δ and remembers its largest overlap: unloading is half as stiff.
 #[plugin(ContactLawEntry, "bruised", "half as stiff when unloading", source: "a test")]
@@ -19,12 +20,7 @@ struct Bruised {
 impl ContactLaw for Bruised {
     fn check(&self) -> Result<(), GrainError> {
         let k = self.stiffness;
-        Ok(require(
-            "the contact law bruised has the stiffness",
-            k,
-            "positive",
-            k > 0.0,
-        )?)
+        Ok(require("the stiffness is", k, "positive", k > 0.0)?)
     }
     fn memory(&self) -> &'static [&'static str] {
         &["largest overlap"]
@@ -62,7 +58,7 @@ fn a_law_of_another_crate_is_found_and_remembers() {
     };
     let mut system = GrainSystem::new(setup).expect("pair");
     let step = 1e-3 * system.critical_step();
-    crate::grains::run(&mut system, step, 6000);
+    run(&mut system, step, 6000);
     assert!(position(&system, 1).x > RADIUS);
     // Half the energy comes back.
     let back = system.grains.velocity[1].x / 0.1;
@@ -85,7 +81,7 @@ fn schemas_carry_units() {
 #[test]
 fn wrong_names_and_parameters_are_refused() {
     let unknown = contact_law("linear", &table("")).expect_err("unknown");
-    assert!(unknown.to_string().contains("linear-elastic"), "{unknown}");
+    assert_says(unknown, "linear-elastic");
     for (wrong, told) in [
         ("modulus = 1e6\ncolour = 1", "colour"),
         ("modulus = -1e6", "-1000000"),
@@ -93,6 +89,6 @@ fn wrong_names_and_parameters_are_refused() {
         let rest = "stiffness_ratio = 0.5\nfriction = 0.5";
         let parameters = table(&format!("{wrong}\n{rest}"));
         let error = contact_law("linear-elastic", &parameters).expect_err(told);
-        assert!(error.to_string().contains(told), "{error}");
+        assert_says(error, told);
     }
 }

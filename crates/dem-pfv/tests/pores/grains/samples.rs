@@ -5,7 +5,8 @@ use dem_pfv::grains::{
     step_to_rest, uniform_radii,
 };
 
-use crate::grains::close;
+use crate::close;
+use crate::grains::{cloud, floor, repeated};
 
 const MODULUS: f64 = 15e6;
 
@@ -33,21 +34,11 @@ fn a_cloud_touches_nothing() {
     close(mean, 0.04, 4.0 * 0.04 / (12.0 * 600.0_f64).sqrt());
 }
 
-fn grains(count: usize) -> Vec<Grain> {
-    let radii = uniform_radii(count, 0.045, 0.055, 1);
-    let places = Cloud::new([0.0; 3], [1.0; 3])
-        .place(&radii, 1)
-        .expect("a cloud");
-    let grains = places.iter().zip(&radii);
-    grains
-        .map(|(at, &r)| Grain::new((*at).into(), r, 2600.0))
-        .collect()
-}
-
 #[test]
 fn growth_ends_at_its_porosity() {
     let walls = Wall::cuboid([0.0; 3], [1.0; 3]);
-    let setup = Setup::new(grains(200), smooth()).walls(walls).damping(0.3);
+    let grains = cloud(200, [0.045, 0.055], 1);
+    let setup = Setup::new(grains, smooth()).walls(walls).damping(0.3);
     let mut system = GrainSystem::new(setup).expect("a cloud");
     let growth = Grown {
         fast: 1.002,
@@ -61,11 +52,8 @@ fn growth_ends_at_its_porosity() {
 
 #[test]
 fn growth_in_a_periodic_box_ends_at_its_stress() {
-    let mut setup = Setup::new(grains(150), smooth()).damping(0.3);
-    for axis in 0..3 {
-        setup = setup.periodic(axis, 0.0, 1.0);
-    }
-    let mut system = GrainSystem::new(setup).expect("a cloud");
+    let setup = Setup::new(cloud(150, [0.045, 0.055], 1), smooth()).damping(0.3);
+    let mut system = GrainSystem::new(repeated(setup, 1.0)).expect("a cloud");
     let growth = Grown {
         fast: 1.002,
         slow: 1.0002,
@@ -77,12 +65,10 @@ fn growth_in_a_periodic_box_ends_at_its_stress() {
     // Without walls nothing but the grains carries: each is in equilibrium, its stress symmetric.
     let stress = system.stress(1.0);
     close(stress.trace() / 3.0, 5e4, 50.0);
-    let of_grains: f64 = system
-        .grain_stresses()
-        .iter()
-        .zip(&system.grains.radius)
-        .map(|(s, r)| s.trace() / 3.0 * 4.0 / 3.0 * std::f64::consts::PI * r.powi(3))
-        .sum();
+    let stresses = system.grain_stresses().into_iter();
+    let volume = |r: &f64| 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
+    let parts = stresses.zip(&system.grains.radius);
+    let of_grains: f64 = parts.map(|(s, r)| s.trace() / 3.0 * volume(r)).sum();
     close(of_grains / 5e4, 1.0, 1e-3);
 }
 
@@ -90,13 +76,8 @@ fn growth_in_a_periodic_box_ends_at_its_stress() {
 fn a_pluviated_bed_rests_on_the_floor_with_its_weight() {
     let radii = uniform_radii(150, 0.045, 0.055, 2);
     let grains = rain([0.0; 3], [0.6, 0.6], &radii, 2600.0, 0.7, 2).expect("rain");
-    let walls = [
-        Wall::new([0.0; 3], [0.0, 0.0, 1.0]),
-        Wall::new([0.0; 3], [1.0, 0.0, 0.0]).with_law(1),
-        Wall::new([0.6, 0.0, 0.0], [-1.0, 0.0, 0.0]).with_law(1),
-        Wall::new([0.0; 3], [0.0, 1.0, 0.0]).with_law(1),
-        Wall::new([0.0, 0.6, 0.0], [0.0, -1.0, 0.0]).with_law(1),
-    ];
+    let sides = Wall::cuboid([0.0; 3], [0.6; 3]).into_iter().take(4);
+    let walls = [floor()].into_iter().chain(sides.map(|w| w.with_law(1)));
     let law = LinearElastic {
         damping: 0.2,
         ..LinearElastic::new(MODULUS, 0.5, 0.3)

@@ -1,27 +1,27 @@
 //! Equilibria under weight and stress.
 
-use dem_pfv::grains::{
-    Control, Grain, GrainSystem, Grown, LinearElastic, Setup, Vector, Wall, step_to_rest,
-};
+use std::f64::consts::TAU;
 
-use crate::grains::{GRAVITY, RADIUS, STIFFNESS, close, grain, law, position, run};
+use dem_pfv::grains::{
+    Control, GrainSystem, Grown, Partner, Setup, Touch, Vector, Wall, step_to_rest,
+};
+use nalgebra::Matrix3;
+
+use crate::close;
+use crate::grains::{GRAVITY, RADIUS, STIFFNESS, cloud, floor, grain, grown, law, position, run};
 
 /// Ball n from the top carries n m g, so that its overlap below is n m g / k; damping moves none of it.
 #[test]
 fn a_damped_stack_is_as_deep_as_its_weight() {
     for damping in [0.1, 0.7] {
         let balls = (0..8).map(|i| grain(0.0, 0.0, RADIUS * f64::from(2 * i + 1)));
-        let floor = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
-        let setup = Setup::new(balls.collect(), law(0.5, 0.3, 0.0));
-        let setup = setup
-            .walls([floor])
-            .gravity([0.0, 0.0, -GRAVITY])
-            .damping(damping);
+        let setup = Setup::new(balls.collect(), law(0.5, 0.3, 0.0)).walls([floor()]);
+        let setup = setup.gravity([0.0, 0.0, -GRAVITY]).damping(damping);
         let mut system = GrainSystem::new(setup).expect("a stack");
         step_to_rest(&mut system, 0.5, 1e-12, 100_000).expect("rest");
         for touch in system.contacts() {
             let above = 8 - touch.grain.max(match touch.partner {
-                dem_pfv::grains::Partner::Grain(other) => other,
+                Partner::Grain(other) => other,
                 _ => 0,
             });
             let expected = above as f64 * GRAVITY / STIFFNESS;
@@ -33,19 +33,6 @@ fn a_damped_stack_is_as_deep_as_its_weight() {
 
 /// A sample of 200 grains between walls without friction, grown to 50 kPa.
 fn sample(friction: f64) -> GrainSystem {
-    let modulus = 15e6;
-    let radii = dem_pfv::grains::uniform_radii(200, 0.04, 0.05, 3);
-    let cloud = dem_pfv::grains::Cloud::new([0.0; 3], [1.0; 3]);
-    let places = cloud.place(&radii, 3).expect("a cloud");
-    let grains = places.iter().zip(&radii);
-    let grains = grains.map(|(at, &r)| Grain::new((*at).into(), r, 2600.0));
-    let walls = Wall::cuboid([0.0; 3], [1.0; 3]).map(|w| w.with_law(1));
-    let setup = Setup::new(grains.collect(), LinearElastic::new(modulus, 0.5, friction));
-    let setup = setup
-        .law(LinearElastic::new(modulus, 0.0, 0.0))
-        .walls(walls)
-        .damping(0.2);
-    let mut system = GrainSystem::new(setup).expect("a sample");
     // A hundred times faster than the custom, for a small sample.
     let growth = Grown {
         fast: 1.002,
@@ -53,29 +40,20 @@ fn sample(friction: f64) -> GrainSystem {
         stress: Some(5e4),
         ..Grown::default()
     };
-    growth.run(&mut system, 0.5, 1_000_000).expect("grown");
-    system
+    grown(cloud(200, [0.04, 0.05], 3), friction, growth)
 }
 
 /// Σ_grains Σ_c (x^C − x) ⊗ F and the walls' Σ x^C ⊗ F differ by what is unbalanced, Σ x ⊗ F_res, exactly.
 fn love_weber_is_wall_stress(system: &GrainSystem) {
     let volume = system.box_volume().expect("closed");
     let stress = system.stress(volume);
-    let mut walls = nalgebra::Matrix3::zeros();
-    for touch in system.contacts() {
-        if matches!(touch.partner, dem_pfv::grains::Partner::Wall(_)) {
-            walls -= touch.point * touch.force.transpose();
-        }
-    }
-    let mut rest = nalgebra::Matrix3::zeros();
-    for (x, f) in system
-        .grains
-        .position
-        .iter()
-        .zip(&system.grains.contact_force)
-    {
-        rest += x * f.transpose();
-    }
+    let at_wall = |touch: &Touch| matches!(touch.partner, Partner::Wall(_));
+    let moments = system.contacts().filter(at_wall);
+    let moments = moments.map(|t| t.point * t.force.transpose());
+    let walls = -moments.sum::<Matrix3<f64>>();
+    let g = &system.grains;
+    let rest = g.position.iter().zip(&g.contact_force);
+    let rest: Matrix3<f64> = rest.map(|(x, f)| x * f.transpose()).sum();
     let difference = (stress * volume - walls - rest).amax();
     assert!(difference < 1e-12 * walls.amax() * 200.0, "{difference}");
     // And so the stress on a pair of walls is that of the grains, but for the overlaps and the rest.
@@ -121,13 +99,13 @@ fn a_piston_swings_as_its_mass_says() {
     piston.area = Some(area);
     let setup = Setup::new(vec![ball], law(0.0, 0.0, 0.0)).walls([piston]);
     let mut system = GrainSystem::new(setup).expect("a ball");
-    let period = std::f64::consts::TAU / (STIFFNESS / mass).sqrt();
+    let period = TAU / (STIFFNESS / mass).sqrt();
     let step = period / 2000.0;
     let depth = |s: &GrainSystem| RADIUS - s.walls[0].point.z;
     run(&mut system, step, 1000);
     // Half a period later it is at twice the overlap of rest, and after a whole one where it was.
     let rest = stress * area / STIFFNESS;
-    let order = (std::f64::consts::TAU / 2000.0_f64).powi(2);
+    let order = (TAU / 2000.0_f64).powi(2);
     close(depth(&system) / rest, 2.0, order);
     run(&mut system, step, 1000);
     close(depth(&system) / rest, 0.0, 10.0 * order);
@@ -139,32 +117,23 @@ fn a_piston_swings_as_its_mass_says() {
 fn a_damped_piston_ends_at_its_stress() {
     let mut system = sample(0.3);
     let solid: f64 = system.grains.mass.iter().sum();
-    for (number, share) in [(5, 0.02), (5, 0.2)] {
-        system.walls[number].control = Control::Piston {
-            stress: 6e4,
-            mass: share * solid,
-        };
+    for share in [0.02, 0.2] {
+        let (stress, mass) = (6e4, share * solid);
+        system.walls[5].control = Control::Piston { stress, mass };
         step_to_rest(&mut system, 0.5, 1e-8, 400_000).expect("rest");
         run(&mut system, 5e-5, 2000);
-        close(system.wall_stress(number).expect("area") / 6e4, 1.0, 1e-6);
+        close(system.wall_stress(5).expect("area") / stress, 1.0, 1e-6);
     }
 }
 
 /// A force from outside acts as weight does: buoyancy here.
 #[test]
 fn external_forces_lift() {
-    let floor = Wall::new([0.0; 3], [0.0, 0.0, 1.0]);
-    let setup = Setup::new(vec![grain(0.0, 0.0, RADIUS)], law(0.5, 0.3, 0.0));
-    let setup = setup
-        .walls([floor])
-        .gravity([0.0, 0.0, -GRAVITY])
-        .damping(0.5);
+    let setup = Setup::new(vec![grain(0.0, 0.0, RADIUS)], law(0.5, 0.3, 0.0)).walls([floor()]);
+    let setup = setup.gravity([0.0, 0.0, -GRAVITY]).damping(0.5);
     let mut system = GrainSystem::new(setup).expect("a ball");
     system.grains.external_force[0] = Vector::z() * (0.4 * GRAVITY);
     step_to_rest(&mut system, 0.5, 1e-12, 100_000).expect("rest");
-    close(
-        RADIUS - position(&system, 0).z,
-        0.6 * GRAVITY / STIFFNESS,
-        1e-12,
-    );
+    let depth = RADIUS - position(&system, 0).z;
+    close(depth, 0.6 * GRAVITY / STIFFNESS, 1e-12);
 }

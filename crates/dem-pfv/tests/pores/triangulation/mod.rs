@@ -5,29 +5,16 @@ mod packings;
 mod properties;
 mod refusals;
 
-use dem_pfv::triangulation::{Sphere, Triangulation, Vertex};
+use dem_pfv::triangulation::{Cell, Sphere, Triangulation, Vertex};
 use nalgebra::Vector3;
-
-/// Spheres of a packing: lines of x y z r.
-fn read(text: &str) -> Vec<Sphere> {
-    let lines = text.lines().filter(|l| !l.starts_with('#'));
-    let numbers = |l: &str| -> Vec<f64> {
-        let words = l.split_whitespace();
-        words.map(|w| w.parse().expect("a number")).collect()
-    };
-    let sphere = |n: Vec<f64>| Sphere::new([n[0], n[1], n[2]], n[3]);
-    lines.map(numbers).map(sphere).collect()
-}
 
 /// Reproducible numbers in [0, 1).
 struct Draw(u64);
 
 impl Draw {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+    fn unit(&mut self) -> f64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -38,8 +25,8 @@ fn random_spheres(n: usize, seed: u64) -> Vec<Sphere> {
     let size = 0.4 / (n as f64).cbrt();
     let mut spheres: Vec<Sphere> = Vec::new();
     while spheres.len() < n {
-        let centre = [(); 3].map(|()| 0.05 + 0.9 * draw.next());
-        let new = Sphere::new(centre, size * draw.next());
+        let centre = [(); 3].map(|()| 0.05 + 0.9 * draw.unit());
+        let new = Sphere::new(centre, size * draw.unit());
         let free = |s: &Sphere| (s.centre - new.centre).norm() > s.radius.max(new.radius);
         if spheres.iter().all(free) {
             spheres.push(new);
@@ -51,9 +38,8 @@ fn random_spheres(n: usize, seed: u64) -> Vec<Sphere> {
 fn lattice(side: u32, step: f64) -> Vec<Sphere> {
     let at = |i: u32| (f64::from(i) + 0.5) * step;
     let site = |i: u32| [at(i % side), at(i / side % side), at(i / side / side)];
-    (0..side.pow(3))
-        .map(|i| Sphere::new(site(i), 0.5 * step))
-        .collect()
+    let sphere = |i| Sphere::new(site(i), 0.5 * step);
+    (0..side.pow(3)).map(sphere).collect()
 }
 
 /// Least power of any power centre to any sphere that is not a vertex of its cell, m².
@@ -62,11 +48,8 @@ fn least_power(mesh: &Triangulation) -> f64 {
     for (c, cell) in mesh.cells.iter().enumerate() {
         let centre = mesh.power_centre(c);
         let vertices = cell.vertices();
-        let own = vertices.iter().find_map(|v| match v {
-            Vertex::Sphere(k) => Some(mesh.spheres[*k].power(centre)),
-            Vertex::Wall(_) => None,
-        });
-        let own = own.expect("a cell has a sphere");
+        let own = vertices.into_iter().find_map(Vertex::sphere);
+        let own = mesh.spheres[own.expect("a cell has a sphere")].power(centre);
         for (k, s) in mesh.spheres.iter().enumerate() {
             if !vertices.contains(&Vertex::Sphere(k)) {
                 least = least.min(s.power(centre) - own);
@@ -103,11 +86,17 @@ fn assert_consistent(mesh: &Triangulation) {
 
 /// Cells as sets of vertices, in order.
 fn canonical(mesh: &Triangulation) -> Vec<[Vertex; 4]> {
-    let sorted = |mut v: [Vertex; 4]| {
-        v.sort();
-        v
+    renamed(mesh, |vertex| vertex)
+}
+
+/// The same under other names of the vertices.
+fn renamed(mesh: &Triangulation, name: impl Fn(Vertex) -> Vertex) -> Vec<[Vertex; 4]> {
+    let sorted = |cell: &Cell| {
+        let mut vertices = cell.vertices().map(&name);
+        vertices.sort();
+        vertices
     };
-    let mut cells: Vec<_> = mesh.cells.iter().map(|c| sorted(c.vertices())).collect();
+    let mut cells: Vec<_> = mesh.cells.iter().map(sorted).collect();
     cells.sort();
     cells
 }

@@ -2,6 +2,7 @@
 
 use dem_pfv::triangulation::{Sphere, Triangulation, TriangulationError as Error, Wall};
 
+use crate::assert_says;
 use crate::triangulation::{lattice, random_spheres};
 
 fn unit_box() -> [Wall; 6] {
@@ -16,21 +17,12 @@ fn equal_centres_are_named() {
         ..spheres[17]
     });
     let error = Triangulation::within(&spheres, &unit_box()).expect_err("equal");
-    assert!(matches!(error, Error::Duplicate(17, 64, _)), "{error}");
-    assert!(
-        error
-            .to_string()
-            .contains("spheres 17 and 64 have the same centre")
-    );
-    let zeros = [
-        Sphere::new([0.0, 0.5, 0.5], 0.1),
-        Sphere::new([-0.0, 0.5, 0.5], 0.1),
-    ];
+    assert_says(&error, "spheres 17 and 64 have the same centre");
+    assert_kind!(error, Error::Duplicate(17, 64, _));
+    let zeros = [0.0, -0.0].map(|x| Sphere::new([x, 0.5, 0.5], 0.1));
     let walls = Wall::cuboid([-1.0; 3], [1.0; 3]);
-    assert!(matches!(
-        Triangulation::within(&zeros, &walls),
-        Err(Error::Duplicate(..))
-    ));
+    let error = Triangulation::within(&zeros, &walls).expect_err("equal");
+    assert_kind!(error, Error::Duplicate(..));
 }
 
 /// Whether the small sphere comes first or last.
@@ -55,57 +47,41 @@ fn a_centre_on_or_behind_a_wall_is_named() {
 
 #[test]
 fn spheres_in_a_plane_need_walls() {
-    let spheres: Vec<_> = lattice(3, 0.3)
-        .into_iter()
-        .filter(|s| s.centre.z < 0.2)
-        .collect();
-    assert_eq!(
-        Triangulation::of_spheres(&spheres).expect_err("flat"),
-        Error::Flat
-    );
-    assert!(Triangulation::within(&spheres, &unit_box()).is_ok());
-    let line: Vec<_> = (0..5)
-        .map(|i| Sphere::new([f64::from(i) / 7.0, 0.1, 0.2], 0.01))
-        .collect();
-    assert_eq!(
-        Triangulation::of_spheres(&line).expect_err("flat"),
-        Error::Flat
-    );
-    let few = Triangulation::of_spheres(&spheres[..3]).expect_err("few");
-    assert_eq!(few, Error::TooFew(3, 4));
-    assert!(matches!(
-        Triangulation::within(&[], &unit_box()),
-        Err(Error::TooFew(..))
-    ));
+    let refused = |spheres: &[Sphere]| Triangulation::of_spheres(spheres).expect_err("flat");
+    let plane = lattice(3, 0.3).into_iter().filter(|s| s.centre.z < 0.2);
+    let plane: Vec<_> = plane.collect();
+    assert_eq!(refused(&plane), Error::Flat);
+    assert!(Triangulation::within(&plane, &unit_box()).is_ok());
+    let line = [0, 1, 2, 3, 4].map(|i| Sphere::new([f64::from(i) / 7.0, 0.1, 0.2], 0.01));
+    assert_eq!(refused(&line), Error::Flat);
+    assert_eq!(refused(&plane[..3]), Error::TooFew(3, 4));
+    let none = Triangulation::within(&[], &unit_box()).expect_err("none");
+    assert_kind!(none, Error::TooFew(..));
 }
 
 #[test]
 fn numbers_that_are_none_are_named() {
     let mut spheres = random_spheres(10, 1);
     spheres[3].radius = -0.1;
-    assert!(matches!(
-        Triangulation::of_spheres(&spheres),
-        Err(Error::BadSphere(3, ..))
-    ));
+    let error = Triangulation::of_spheres(&spheres).expect_err("negative");
+    assert_kind!(error, Error::BadSphere(3, ..));
     spheres[3].radius = 0.1;
     spheres[5].centre.y = f64::NAN;
-    assert!(matches!(
-        Triangulation::of_spheres(&spheres),
-        Err(Error::BadSphere(5, ..))
-    ));
+    let error = Triangulation::of_spheres(&spheres).expect_err("nowhere");
+    assert_kind!(error, Error::BadSphere(5, ..));
     let mut walls = unit_box();
     walls[2].normal *= 2.0;
-    let error = Triangulation::within(&random_spheres(10, 1), &walls);
-    assert!(matches!(error, Err(Error::BadWall(2, ..))));
+    let error = Triangulation::within(&random_spheres(10, 1), &walls).expect_err("long");
+    assert_kind!(error, Error::BadWall(2, ..));
 }
 
 #[test]
 fn walls_that_close_no_room_are_named() {
     let spheres = [Sphere::new([0.5; 3], 0.1)];
     let open = Triangulation::within(&spheres, &unit_box()[..5]).expect_err("open");
-    assert!(matches!(open, Error::Open(..)), "{open}");
+    assert_kind!(open, Error::Open(..));
     let floor = Triangulation::within(&spheres, &unit_box()[4..5]).expect_err("open");
-    assert!(matches!(floor, Error::Open(..)), "{floor}");
+    assert_kind!(floor, Error::Open(..));
     let mut walls = unit_box().to_vec();
     walls.push(Wall::through([0.0, 0.0, -1.0], [0.0, 0.1, 1.0]));
     let idle = Triangulation::within(&spheres, &walls).expect_err("idle");
@@ -115,5 +91,5 @@ fn walls_that_close_no_room_are_named() {
     let mut pyramid: Vec<_> = sides.into_iter().map(tip).collect();
     pyramid.push(unit_box()[4]);
     let error = Triangulation::within(&spheres, &pyramid).expect_err("four walls in a point");
-    assert!(matches!(error, Error::FourWallsMeet(_)), "{error}");
+    assert_kind!(error, Error::FourWallsMeet(_));
 }
