@@ -7,7 +7,7 @@
 //! * [`PressureScheme`] is a kind of plugin, which pressure acts in a step; [`pressure`] has that of its end.
 //! * [`equations_of_state`] is the stage that applies them.
 //! * [`SurfaceEntry`] is a kind of plugin, the definition of free surfaces: [`ConeTest`], [`Renormalised`].
-//! * [`AcousticDamper`] takes sound away.
+//! * [`AcousticDamper`] takes sound away, [`dissipation`] noise between particles that approach each other.
 //! * [`damping`]: decay of velocities, everywhere or in sponges.
 //! * [`diffusion`] of density against noise, and of particles against gaps.
 //! * [`linear`]: sparse systems on the neighbour graph and their solvers.
@@ -26,6 +26,7 @@ mod contract;
 mod contribution;
 pub mod damping;
 pub mod diffusion;
+pub mod dissipation;
 mod divergence;
 mod gradient;
 mod grenier;

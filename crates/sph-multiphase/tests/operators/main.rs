@@ -3,6 +3,7 @@
 mod channel;
 mod conservation;
 mod density;
+mod dissipation;
 mod evaluate;
 mod formulations;
 mod friction;

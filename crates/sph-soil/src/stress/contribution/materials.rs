@@ -48,6 +48,7 @@ impl<const D: usize> Materials<D> {
         let dilates = plugins.names("dilatancy") && plugins.names("pore-pressure");
         let dilates = dilates.then(|| plugins.one::<D, DilatancyEntry>());
         let strained = eddies
+            || plugins.names("dissipation")
             || elastic
             || dilates.is_some()
             || shown
