@@ -1,6 +1,10 @@
 //! Pieces of physics, the scene that they are in, and columns that they bring along.
 
-use sph_core::{AnyField, Evolved, Field, Scalar, Vect, Vector, suggestion};
+use std::ops::Range;
+
+use sph_core::{
+    AnyField, Evolved, Field, FieldError, Scalar, Store, Vect, Vector, fields, suggestion,
+};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
@@ -175,6 +179,44 @@ impl<const D: usize> OwnColumn<D> {
             initial,
             within,
         }
+    }
+
+    /// Gives the particles of some slots their values at the start; `names` has the phase and the body of a particle.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn begin<'n>(
+        &self,
+        free: &mut Store<D>,
+        slots: Range<usize>,
+        names: impl Fn(usize) -> (&'n str, &'n str),
+    ) -> Result<(), FieldError> {
+        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+        let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
+        let birth = |k: usize| {
+            let (phase, body) = names(k);
+            Birth {
+                position: position[k],
+                velocity: velocity[k],
+                density: density[k],
+                mass: mass[k],
+                phase,
+                body,
+            }
+        };
+        let births = slots.clone().map(birth);
+        match &self.initial {
+            Initial::Zero => {}
+            Initial::Scalar(formula) => {
+                let values: Vec<f64> = births.map(|birth| formula(&birth)).collect();
+                free.get_mut(self.field.scalar())?[slots].copy_from_slice(&values);
+            }
+            Initial::Vector(formula) => {
+                let values: Vec<Vect<D>> = births.map(|birth| formula(&birth)).collect();
+                free.get_mut(self.field.vector())?[slots].copy_from_slice(&values);
+            }
+        }
+        Ok(())
     }
 
     /// The same column, whose values may not be zero or negative where particles come in.

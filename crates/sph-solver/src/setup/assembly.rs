@@ -9,7 +9,6 @@ use crate::setup::planning::StagePlan;
 use crate::step::flow::Flow;
 use crate::step::hooks::Columns;
 use crate::step::outlets::Outlets;
-use crate::step::snapshot::Snapshot;
 use crate::step::stages::WALL_STATE;
 use crate::step::variable_gravity::VariableGravity;
 
@@ -68,9 +67,7 @@ pub fn joined<const D: usize>(
         on_walls: Vec::new(),
         moved: true,
         restored: false,
-        kept: Snapshot::default(),
-        kept_rates: Default::default(),
-        kept_image: Default::default(),
+        kept: Default::default(),
         laws: given.laws,
         kinematic_viscosities: given.kinematic_viscosities,
         timings: Vec::new(),
