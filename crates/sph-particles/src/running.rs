@@ -14,4 +14,3 @@ pub(crate) mod series;
 pub(crate) mod stepper;
 pub(crate) mod trial;
 pub(crate) mod watches;
-pub(crate) mod writing;

@@ -7,7 +7,8 @@ use sph_neighbours::decomposition::PartError;
 use sph_run::{Frames, Model, Poll, Progress, RunCounters, Start, Status, Watch};
 
 use crate::failure::error::Result;
-use crate::running::checkpoint::begin;
+use crate::running::checkpoint::{self, begin};
+use crate::running::counters::Counters;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
 use crate::running::ranked::{columns_of_all, looks_around};
@@ -168,6 +169,50 @@ impl<const D: usize> Model for Running<'_, D> {
 }
 
 impl<const D: usize> Running<'_, D> {
+    /// The row of the whole flow.
+    fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        let (row, balance) = self.extrema.row(shown, &self.zones)?;
+        let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
+        let told = self.mach.look(&balance).into_iter();
+        let told = told
+            .chain(self.energy.look(&balance, left, time))
+            .chain(self.departure.look(self.scene, &self.parts.flow));
+        told.for_each(|told| observer.message(&told));
+        let counters = &mut self.counters;
+        if counters.initial_momentum.is_empty() {
+            counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+            counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+        }
+        Ok(row)
+    }
+
+    /// Writes a checkpoint of the state that the first rank has.
+    pub fn save_gathered(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
+        if !self.writes() {
+            return Ok(());
+        }
+        let counters = &mut self.counters;
+        counters.series_extrema = self.extrema.numbers().map(f64::to_bits);
+        counters.series_peaks = Some(self.extrema.peaks.map(f64::to_bits).to_vec());
+        counters.energies = self.energy.bits();
+        counters.take(books);
+        let left = self.parts.flow.left();
+        counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let shown = self.shown();
+        let sums = shown.probes.iter();
+        let sums = sums.filter_map(|(name, p)| Some((name.clone(), p.as_gathers()?.gathered())));
+        let counters = Counters {
+            stage_seconds: self.stage_seconds(books),
+            works: self.parts.flow.counts(),
+            probes: sums.filter(|(_, sums)| !sums.is_empty()).collect(),
+            ..self.counters.clone()
+        };
+        let identity = &self.options.identity;
+        checkpoint::save((&shown.flow, self.walls()), own, identity, &counters)?;
+        self.zones.save(own, identity)
+    }
+
     fn now(&self) -> Progress {
         let (dt, limiter) = self.tried;
         let world = &self.parts.flow.world;

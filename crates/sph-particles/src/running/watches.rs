@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 
 use sph_core::StepError;
-use sph_scene::Scene;
+use sph_scene::{Scene, given};
 use sph_solver::step::WALL_MOTION;
 use sph_solver::{Flow, defaults};
 
@@ -36,7 +36,7 @@ const OWN: [&str; 9] = [
 ];
 
 /// The energies of a flow so far, J.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EnergyWatch {
     /// True if anything else than its own weight may give the flow energy, or hold some that its sums leave out.
     driven: bool,
@@ -63,9 +63,7 @@ impl EnergyWatch {
             || kinds.any(|kind| !OWN.contains(&kind));
         EnergyWatch {
             driven,
-            so_far: None,
-            share: 0.0,
-            warned: false,
+            ..EnergyWatch::default()
         }
     }
 
@@ -218,19 +216,18 @@ impl DepartureWatch {
     }
 
     /// Lines of the summary: warnings, and advice.
-    pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
+    pub fn remarks(&self) -> (Vec<String>, Vec<&'static str>) {
         let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find the force that throws it \
                     (the probe `wall-force` measures the force of the fluid)";
         let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the \
                        step with `run.safety`";
-        let of = |some: bool, what: &str| some.then(|| what.to_string());
         let warnings = self.over.iter().map(|n| out_of(n));
         let warnings = warnings.chain(self.leap.clone()).collect();
         let advice = [
-            of(!self.over.is_empty(), room),
-            of(self.leap.is_some(), shorter),
+            (room, !self.over.is_empty()),
+            (shorter, self.leap.is_some()),
         ];
-        (warnings, advice.into_iter().flatten().collect())
+        (warnings, given(advice))
     }
 
     /// The reason for the run's end, if a body has left the domain.
@@ -266,9 +263,7 @@ mod tests {
         };
         let watch = |driven| EnergyWatch {
             driven,
-            so_far: None,
-            share: 0.0,
-            warned: false,
+            ..EnergyWatch::default()
         };
         let mut flow = watch(false);
         assert_eq!(look(&mut flow, [0.0, 10.0], 0.0, 0.0), None);
