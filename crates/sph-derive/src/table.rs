@@ -1,7 +1,7 @@
 //! The derives and attributes of a table of parameters, or of a choice between variants.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
@@ -102,16 +102,11 @@ pub fn take(item: &mut DeriveInput, names: &[&str]) {
 }
 
 fn path_of(name: &str, root: &TokenStream) -> TokenStream {
+    let of_trait = format_ident!("{name}");
     match name {
-        "Clone" => quote!(::core::clone::Clone),
-        "Copy" => quote!(::core::marker::Copy),
-        "Debug" => quote!(::core::fmt::Debug),
-        "Default" => quote!(::core::default::Default),
-        "Deserialize" => quote!(#root::serde::Deserialize),
-        "Eq" => quote!(::core::cmp::Eq),
+        "Deserialize" | "Serialize" => quote!(#root::serde::#of_trait),
         "JsonSchema" => quote!(#root::schemars::JsonSchema),
-        "PartialEq" => quote!(::core::cmp::PartialEq),
-        _ => quote!(#root::serde::Serialize),
+        _ => quote!(::core::prelude::v1::#of_trait),
     }
 }
 
@@ -207,12 +202,12 @@ mod tests {
     #[test]
     fn numbers_are_copied_and_what_is_kept_is_not_cloned() {
         let numbers = "struct A { a: f64, b: Option<[u32; 2]> }";
-        assert_parts(&expanded(numbers, true), &["marker::Copy"], &[]);
+        assert_parts(&expanded(numbers, true), &["v1::Copy"], &[]);
         let text = "struct A { a: String }";
-        assert_parts(&expanded(text, true), &["clone::Clone"], &["marker::Copy"]);
+        assert_parts(&expanded(text, true), &["v1::Clone"], &["v1::Copy"]);
         let keeps = "struct A { #[serde(skip)] a: Mutex<f64> }";
-        assert_parts(&expanded(keeps, true), &[], &["clone::Clone"]);
-        assert_parts(&expanded(keeps, false), &["clone::Clone"], &[]);
+        assert_parts(&expanded(keeps, true), &[], &["v1::Clone"]);
+        assert_parts(&expanded(keeps, false), &["v1::Clone"], &[]);
         let code = expanded("#[derive(Clone, Default)] struct A { a: f64 }", true);
         assert_eq!(code.matches("Clone").count(), 1, "{code}");
     }
@@ -234,12 +229,12 @@ mod tests {
     fn choices_are_in_kebab_case_unless_an_author_says_otherwise() {
         let code = expanded("enum A { #[default] OneTwo, Three }", false);
         let kebab = r#"rename_all="kebab-case""#;
-        assert_parts(&code, &[kebab, "cmp::Eq", "default::Default"], &[]);
+        assert_parts(&code, &[kebab, "v1::Eq", "v1::Default"], &[]);
         let own = r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#;
         assert_parts(
             &expanded(own, false),
             &["deny_unknown_fields"],
-            &["kebab", "cmp::Eq"],
+            &["kebab", "v1::Eq"],
         );
     }
 
@@ -264,13 +259,13 @@ mod tests {
         };
         let item =
             r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
-        let has = ["default::DefaultforA", "marker::Copy"];
+        let has = ["default::DefaultforA", "v1::Copy"];
         assert_parts(&bare(item), &has, &["serde", "schema", "unit"]);
         // The function would have no call.
         let some = "struct A { #[parameter(default: 0.5)] a: f64, b: f64 }";
         assert_parts(&bare(some), &[], &["default_a"]);
         let choice = "enum A { #[default] #[serde(rename = \"b\")] B, C }";
-        assert_parts(&bare(choice), &["#[default]B", "cmp::Eq"], &["serde"]);
+        assert_parts(&bare(choice), &["#[default]B", "v1::Eq"], &["serde"]);
     }
 
     #[test]

@@ -21,9 +21,8 @@ pub fn run<M: Model>(
     outlay: Outlay,
     observer: &mut Watch<'_>,
 ) -> Result<Option<M::Summary>, M::Error> {
-    let started = Instant::now();
     let opened = Opened::open(model, options, Some(outlay), observer)?;
-    opened.drive(model, schedule, started, observer)
+    opened.drive(model, schedule, observer)
 }
 
 /// A run whose folder is its own, and whose model is where it begins.
@@ -54,7 +53,7 @@ impl Opened {
         outlay: Option<Outlay>,
         observer: &mut Watch<'_>,
     ) -> Result<Self, M::Error> {
-        let folder = &options.out;
+        let (folder, started) = (&options.out, Instant::now());
         let mut held = None;
         if outlay.is_some() {
             held = Some(take(folder, observer)?);
@@ -99,11 +98,11 @@ impl Opened {
             books,
             files,
             _lock: held,
-            started: Instant::now(),
+            started,
         })
     }
 
-    /// Steps the model to the end, and writes the outputs that are due; the wall-clock time counts from `started`.
+    /// Steps the model to the end, and writes the outputs that are due.
     ///
     /// # Errors
     /// Files that cannot be written, what goes wrong in the model.
@@ -111,10 +110,8 @@ impl Opened {
         mut self,
         model: &mut M,
         schedule: &Schedule<'_>,
-        started: Instant,
         observer: &mut Watch<'_>,
     ) -> Result<Option<M::Summary>, M::Error> {
-        self.started = started;
         match self.drive_to_end(model, schedule, observer)? {
             Ok(status) => {
                 let film = self.files.as_ref().map(|f| f.frames.film());

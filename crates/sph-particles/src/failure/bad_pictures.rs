@@ -7,7 +7,7 @@ use sph_io::{Picture, View};
 use sph_run::{BAD_STATE_NEAR, BAD_STATE_PICTURE};
 use sph_solver::Flow;
 
-use crate::running::drawn_flow::{column_of, drawn_walls, padded};
+use crate::running::pieces::{column_of, drawn_walls, padded};
 
 /// Half the width of the enlarged view, in spacings.
 const REACH: f64 = 10.0;

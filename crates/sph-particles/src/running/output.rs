@@ -8,9 +8,9 @@ use sph_scene::{Scene, given};
 
 use crate::failure::error::Result;
 use crate::running::course::Running;
-use crate::running::drawn_flow::{column_of, drawn_walls};
 use crate::running::pieces::{
-    own_particles, particles, points, walls, write_own_share, zone_particles,
+    column_of, drawn_walls, own_particles, particles, points, walls, write_own_share,
+    zone_particles,
 };
 use crate::setup::Probes;
 

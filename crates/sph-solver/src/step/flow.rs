@@ -95,7 +95,7 @@ pub struct Flow<const D: usize> {
     /// Time spent per stage and service since the assembly.
     pub timings: Vec<Timing>,
     /// The change of gravity, if there is one.
-    pub(crate) swing: Option<VariableGravity<D>>,
+    pub swing: Option<VariableGravity<D>>,
     /// The outlets.
     pub outlets: Outlets,
     /// Initial values of newborn particles, where some may come in.
