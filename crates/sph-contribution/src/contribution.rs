@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use sph_core::{
-    AnyField, Evolved, Field, FieldError, Scalar, Store, Vect, Vector, fields, suggestion,
-};
+use sph_core::{AnyField, Evolved, Field, FieldError, Scalar, Store, Vect, fields, suggestion};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
@@ -128,24 +126,14 @@ pub struct Birth<'a, const D: usize> {
     pub body: &'a str,
 }
 
-type Formula<const D: usize, T> = Box<dyn Fn(&Birth<'_, D>) -> T + Send + Sync>;
-
-/// Values of a column at the start.
-pub enum Initial<const D: usize> {
-    /// Zero.
-    Zero,
-    /// A number per particle.
-    Scalar(Formula<D, f64>),
-    /// A vector per particle.
-    Vector(Formula<D, Vect<D>>),
-}
+type Formula<const D: usize> = Box<dyn Fn(&Birth<'_, D>) -> f64 + Send + Sync>;
 
 /// A column that carries history: sorted with the particles, kept within a step, rolled back, saved.
 pub struct OwnColumn<const D: usize> {
     /// The field.
-    pub field: AnyField,
-    /// Its values at the start.
-    pub initial: Initial<D>,
+    pub field: Field<Scalar>,
+    /// Its value at the start, by the particle.
+    initial: Formula<D>,
     /// Least and largest value with which particles may come in.
     pub within: [f64; 2],
 }
@@ -156,28 +144,10 @@ impl<const D: usize> OwnColumn<D> {
         field: Field<Scalar>,
         initial: impl Fn(&Birth<'_, D>) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        Self::new(field.any(), Initial::Scalar(Box::new(initial)))
-    }
-
-    /// A vector with its value at the start.
-    pub fn vector(
-        field: Field<Vector>,
-        initial: impl Fn(&Birth<'_, D>) -> Vect<D> + Send + Sync + 'static,
-    ) -> Self {
-        Self::new(field.any(), Initial::Vector(Box::new(initial)))
-    }
-
-    /// A column of any type that starts with zeros.
-    pub fn zero(field: AnyField) -> Self {
-        Self::new(field, Initial::Zero)
-    }
-
-    fn new(field: AnyField, initial: Initial<D>) -> Self {
-        let within = [f64::NEG_INFINITY, f64::INFINITY];
         OwnColumn {
             field,
-            initial,
-            within,
+            initial: Box::new(initial),
+            within: [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 
@@ -205,17 +175,8 @@ impl<const D: usize> OwnColumn<D> {
             }
         };
         let births = slots.clone().map(birth);
-        match &self.initial {
-            Initial::Zero => {}
-            Initial::Scalar(formula) => {
-                let values: Vec<f64> = births.map(|birth| formula(&birth)).collect();
-                free.get_mut(self.field.scalar())?[slots].copy_from_slice(&values);
-            }
-            Initial::Vector(formula) => {
-                let values: Vec<Vect<D>> = births.map(|birth| formula(&birth)).collect();
-                free.get_mut(self.field.vector())?[slots].copy_from_slice(&values);
-            }
-        }
+        let values: Vec<f64> = births.map(|birth| (self.initial)(&birth)).collect();
+        free.get_mut(self.field)?[slots].copy_from_slice(&values);
         Ok(())
     }
 

@@ -1,40 +1,19 @@
 //! The derives and attributes of a table of parameters, or of a choice between variants.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use syn::ext::IdentExt;
-use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
-use crate::defaults::Defaults;
-use crate::defaults::{is_number, is_skipped, words};
-use crate::parameter::value;
+use crate::defaults::{Defaults, is_number, is_skipped, words};
 
-/// The module with `serde` and `schemars`.
-pub struct Root(pub TokenStream);
-
-impl Parse for Root {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        if input.is_empty() {
-            return Ok(Self(quote!(::sph_core::reexport)));
-        }
-        let word = input.call(Ident::parse_any)?;
-        let message = "expected `crate: path`, or nothing";
-        match word == "crate" {
-            true => value(&word, input).map(Self),
-            false => Err(Error::new_spanned(word, message)),
-        }
-    }
-}
-
-/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without
-/// scenes: its words and those for `serde` and `schemars` are gone, and with them the traits of texts.
+/// The type with the words of its attribute, for scenes or as it is without: then its words and those for `serde` and
+/// `schemars` are gone, and with them the traits of texts.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.
 pub fn expand(
     mut item: DeriveInput,
-    root: Option<&TokenStream>,
+    for_scenes: bool,
     is_plugin: bool,
 ) -> syn::Result<TokenStream> {
     let derived = words(&item.attrs, "derive");
@@ -58,23 +37,19 @@ pub fn expand(
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    let Some(root) = root else {
+    if !for_scenes {
         take(&mut item, &["serde", "schemars"]);
         derives.retain(|name| !["Deserialize", "JsonSchema", "Serialize"].contains(name));
-        let derives = derives
-            .iter()
-            .map(|name| path_of(name, &TokenStream::new()));
+        let derives = derives.into_iter().map(path_of);
         // The values of single fields are called by the whole alone.
         let defaults = default.is_some().then_some(defaults);
         return Ok(quote!(#[derive(#(#derives),*)] #item #defaults #default));
-    };
-    let derives = derives.iter().map(|name| path_of(name, root));
-    let place = root.to_string().replace(' ', "");
-    let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
+    }
+    let derives = derives.into_iter().map(path_of);
     Ok(quote! {
         #[derive(#(#derives),*)]
-        #[serde(crate = #at_serde, #(#serde),*)]
-        #[schemars(crate = #at_schemars)]
+        #[serde(crate = "::sph_core::reexport::serde", #(#serde),*)]
+        #[schemars(crate = "::sph_core::reexport::schemars")]
         #item
         #defaults
         #default
@@ -101,11 +76,11 @@ pub fn take(item: &mut DeriveInput, names: &[&str]) {
     }
 }
 
-fn path_of(name: &str, root: &TokenStream) -> TokenStream {
+fn path_of(name: &str) -> TokenStream {
     let of_trait = format_ident!("{name}");
     match name {
-        "Deserialize" | "Serialize" => quote!(#root::serde::#of_trait),
-        "JsonSchema" => quote!(#root::schemars::JsonSchema),
+        "Deserialize" | "Serialize" => quote!(::sph_core::reexport::serde::#of_trait),
+        "JsonSchema" => quote!(::sph_core::reexport::schemars::JsonSchema),
         _ => quote!(::core::prelude::v1::#of_trait),
     }
 }
@@ -185,7 +160,7 @@ mod tests {
 
     fn expanded(item: &str, is_plugin: bool) -> String {
         let item = syn::parse_str(item).expect("an item");
-        let code = expand(item, Some(&quote!(::root)), is_plugin);
+        let code = expand(item, true, is_plugin);
         let code = code.unwrap_or_else(Error::into_compile_error);
         code.to_string().replace(' ', "")
     }
@@ -245,16 +220,16 @@ mod tests {
             "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
         ] {
             let mut item: DeriveInput = syn::parse_str(item).expect("an item");
-            assert!(expand(item.clone(), Some(&quote!(::root)), true).is_err());
+            assert!(expand(item.clone(), true, true).is_err());
             take(&mut item, &["parameter"]);
-            assert!(expand(item, Some(&quote!(::root)), true).is_ok());
+            assert!(expand(item, true, true).is_ok());
         }
     }
 
     #[test]
     fn a_plain_type_has_its_default_and_nothing_of_texts() {
         let bare = |item: &str| {
-            let code = expand(syn::parse_str(item).expect("an item"), None, true).expect("words");
+            let code = expand(syn::parse_str(item).expect("an item"), false, true).expect("words");
             code.to_string().replace(' ', "")
         };
         let item =

@@ -172,7 +172,9 @@ impl Opened {
             let stepped = now.time > self.books.time;
             self.books.time = now.time;
             if stepped {
-                let stop = self.wants_to_stop(&now, schedule, observer);
+                let command = observer.step(&now);
+                let late = |most| self.counters().wall_seconds > most;
+                let stop = command == Command::Stop || schedule.max_wall.is_some_and(late);
                 match model.agree(Poll::Stop(stop)) {
                     Ok(false) => {}
                     Ok(true) => {
@@ -205,19 +207,6 @@ impl Opened {
             }
             limit = schedule.target(&self.books);
         }
-    }
-
-    /// Reports a step; whether the observer or the bound on the run time stops it.
-    fn wants_to_stop(
-        &mut self,
-        now: &Progress,
-        schedule: &Schedule<'_>,
-        observer: &mut Watch<'_>,
-    ) -> bool {
-        let command = observer.step(now);
-        let most = schedule.max_wall;
-        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
-        command == Command::Stop || late
     }
 
     fn write<M: Model>(

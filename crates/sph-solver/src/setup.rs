@@ -5,4 +5,4 @@ pub(crate) mod choices;
 pub(crate) mod planning;
 
 pub use choices::{Choices, own_accounts, plugins, shown};
-pub use planning::{Planning, SharedTerms, StagePlan};
+pub use planning::{Planning, StagePlan};

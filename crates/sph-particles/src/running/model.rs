@@ -47,7 +47,8 @@ impl<const D: usize> Model for Running<'_, D> {
                 sums.recall(&gathered);
             }
         }
-        self.energy.recall(self.counters.energies);
+        let energies = self.counters.energies;
+        self.energy.so_far = energies.map(|all| all.map(f64::from_bits));
         if start.goes_on() {
             let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
             self.extrema.density_range = [low, high];
@@ -193,9 +194,11 @@ impl<const D: usize> Running<'_, D> {
             return Ok(());
         }
         let counters = &mut self.counters;
-        counters.series_extrema = self.extrema.numbers().map(f64::to_bits);
+        let (extrema, [low, high]) = (&self.extrema, self.extrema.density_range);
+        let numbers = [low, high, extrema.energy_scale, extrema.momentum_scale];
+        counters.series_extrema = numbers.map(f64::to_bits);
         counters.series_peaks = Some(self.extrema.peaks.map(f64::to_bits).to_vec());
-        counters.energies = self.energy.bits();
+        counters.energies = self.energy.so_far.map(|all| all.map(f64::to_bits));
         counters.take(books);
         let left = self.parts.flow.left();
         counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();

@@ -216,7 +216,7 @@ const SMOOTH: f64 = 0.94;
 
 /// Corner points of the lines: all segments in the plane; in space the edges of which only one
 /// element is there, or two whose normals differ by more than 20°.
-pub fn wall_lines<const D: usize>(world: &World<D>) -> Vec<[u32; 2]> {
+fn wall_lines<const D: usize>(world: &World<D>) -> Vec<[u32; 2]> {
     let elements = &world.walls.elements;
     if D == 2 {
         return elements.corners.iter().map(|c| [c[0], c[1]]).collect();

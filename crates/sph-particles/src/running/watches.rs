@@ -41,7 +41,7 @@ pub(crate) struct EnergyWatch {
     /// True if anything else than its own weight may give the flow energy, or hold some that its sums leave out.
     driven: bool,
     /// Sum and potential energy in the first row, largest kinetic, least potential energy, largest rise of the sum.
-    so_far: Option<[f64; 5]>,
+    pub so_far: Option<[f64; 5]>,
     /// Largest rise over the scale of the flow.
     share: f64,
     warned: bool,
@@ -65,16 +65,6 @@ impl EnergyWatch {
             driven,
             ..EnergyWatch::default()
         }
-    }
-
-    /// Goes on with the state of the earlier part of a run.
-    pub fn recall(&mut self, so_far: Option<[u64; 5]>) {
-        self.so_far = so_far.map(|all| all.map(f64::from_bits));
-    }
-
-    /// State for a run that is resumed.
-    pub fn bits(&self) -> Option<[u64; 5]> {
-        self.so_far.map(|all| all.map(f64::to_bits))
     }
 
     /// Looks at the sums of a state at a time, s; gives a warning, once in a run. The sums over the remaining particles

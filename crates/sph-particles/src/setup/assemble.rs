@@ -231,7 +231,7 @@ fn filled_columns<const D: usize>(
             let why = format!("two plugins of this scene have a column `{name}`");
             return Err(SolverError::at("", why));
         }
-        free.add_any(column.field, Role::State);
+        free.add(column.field, Role::State);
     }
     let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)?;
     let count = free.len() as u32;

@@ -23,7 +23,6 @@ use sph_neighbours::decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_rheology::state::Laws;
 
-use crate::step::guard;
 use crate::step::hooks::{Boundary, Columns, Hooked, Hooks, ObservedFlow, Observer};
 use crate::step::outlets::Outlets;
 use crate::step::stages::{Work, run_and_update_ghosts};
@@ -260,18 +259,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Largest extent of the particles along any axis, m.
-    pub fn extent(&self) -> f64 {
-        let Ok(position) = self.world.free.get(fields::POSITION) else {
-            return 0.0;
-        };
-        let along = |k: usize| {
-            let all = || position.iter().map(|x| x[k]);
-            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
-        };
-        (0..D).map(along).fold(0.0, f64::max)
-    }
-
     /// The terms that push particles, those outside of the sweep included.
     pub fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
@@ -336,15 +323,6 @@ impl<const D: usize> Flow<D> {
         let columns = self.world.free.columns();
         let state = columns.filter(|(_, _, role, ..)| *role == Role::State);
         state.map(|(name, ..)| name).collect()
-    }
-
-    /// All columns of a state, as in every evaluation of a run.
-    ///
-    /// # Errors
-    /// The first particle that is out of bounds.
-    pub fn guard(&self, density_bounds: [f64; 2]) -> Result<(), StepError> {
-        guard::positions(&self.world)?;
-        guard::rates(&self.world, &self.laws, density_bounds)
     }
 
     /// Starts all timings anew; after a change of the works.

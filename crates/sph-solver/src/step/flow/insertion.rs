@@ -131,7 +131,7 @@ impl<const D: usize> Flow<D> {
             for (slot, newborn) in slots.clone().zip(all) {
                 let mut given = newborn.values.iter();
                 if let Some((_, value)) = given.find(|(name, _)| name == column.field.name) {
-                    free.get_mut(column.field.scalar())?[slot] = *value;
+                    free.get_mut(column.field)?[slot] = *value;
                 }
             }
         }
