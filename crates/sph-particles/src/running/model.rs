@@ -58,7 +58,8 @@ impl<const D: usize> Model for Running<'_, D> {
         for (peak, bits) in self.extrema.peaks.iter_mut().zip(kept) {
             *peak = f64::from_bits(*bits);
         }
-        Ok(self.counters.books(self.parts.flow.world.time))
+        self.counters.books.time = self.parts.flow.world.time;
+        Ok(self.counters.books.clone())
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
@@ -119,7 +120,7 @@ impl<const D: usize> Model for Running<'_, D> {
         for told in self.write_output(frames)? {
             observer.message(&told);
         }
-        self.counters.outputs += 1;
+        self.counters.books.outputs += 1;
         Ok(())
     }
 
@@ -199,7 +200,7 @@ impl<const D: usize> Running<'_, D> {
         counters.series_extrema = numbers.map(f64::to_bits);
         counters.series_peaks = Some(self.extrema.peaks.map(f64::to_bits).to_vec());
         counters.energies = self.energy.so_far.map(|all| all.map(f64::to_bits));
-        counters.take(books);
+        counters.books = books.clone();
         let left = self.parts.flow.left();
         counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
         let shown = self.shown();

@@ -46,7 +46,7 @@ impl<const D: usize> Running<'_, D> {
         match (frames, among) {
             (Some(frames), among) => self.write_all(frames, among.map(|(_, ranks)| ranks)),
             (None, Some((rank, _))) => {
-                let place = (self.counters.outputs, rank);
+                let place = (self.counters.books.outputs, rank);
                 write_own_share(self.scene, &self.parts.flow, &self.options.out, place)?;
                 Ok(Vec::new())
             }
