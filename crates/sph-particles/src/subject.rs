@@ -49,11 +49,8 @@ impl Subject for Scene {
     }
 
     fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
-        let first = |error| problems(error).into_iter().next();
-        let none = || SceneProblem::new("", "");
-        let marks = marks(&self.0).map_err(|error| first(error).unwrap_or_else(none))?;
         let each = |mark: FileMark| (mark.key, mark.content.to_string());
-        Ok(marks.into_iter().map(each).collect())
+        Ok(marks(&self.0)?.into_iter().map(each).collect())
     }
 
     fn end(&self) -> f64 {
@@ -120,16 +117,13 @@ pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
 }
 
 /// Every file that a scene names, with its contents.
-///
-/// # Errors
-/// A file that cannot be read, at its key.
-pub fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SolverError> {
+fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SceneProblem> {
     let mark = |file: sph_scene::DataFile| {
         let path = file.path;
-        let path = path.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?;
+        let path = path.map_err(|e| SceneProblem::new(file.key.clone(), e.to_string()))?;
         let content = sph_io::checksum(&path, LONGEST);
         Ok(FileMark {
-            content: content.map_err(|e| SolverError::at(file.key.clone(), e.to_string()))?,
+            content: content.map_err(|e| SceneProblem::new(file.key.clone(), e.to_string()))?,
             key: file.key,
             file: file.named,
         })
