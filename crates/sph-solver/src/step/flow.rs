@@ -27,7 +27,7 @@ use crate::step::hooks::{Boundary, Columns, Hooked, Hooks, ObservedFlow, Observe
 use crate::step::outlets::Outlets;
 use crate::step::stages::{Work, run_and_update_ghosts};
 use crate::step::variable_gravity::VariableGravity;
-use kept::Kept;
+use kept::KeptState;
 
 /// Wall-clock time of one kind of work.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ pub struct Flow<const D: usize> {
     pub moved: bool,
     /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
-    pub(crate) kept: Kept<D>,
+    pub(crate) kept: KeptState<D>,
     /// Equations of state, in the order of the phase numbers.
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.

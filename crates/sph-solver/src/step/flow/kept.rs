@@ -6,7 +6,7 @@ use sph_core::{Evolved, FieldError, Recall, StepError, Store, Vect, fields};
 use super::{Flow, Snapshot};
 
 #[derive(Default)]
-pub(crate) struct Kept<const D: usize> {
+pub(crate) struct KeptState<const D: usize> {
     state: Snapshot<D>,
     rates: KeptRates<D>,
     /// All particles of a rank, and the number of lists built until then; nothing where one process has all.
@@ -45,7 +45,7 @@ impl<const D: usize> Flow<D> {
     /// Brings the kept values to the present particles of this rank, if some have gone and come since.
     fn kept_follows(&mut self) -> Result<(), StepError> {
         let (free, now) = (&self.world.free, self.world.lists.builds);
-        let Kept {
+        let KeptState {
             state,
             rates,
             image,
