@@ -9,6 +9,7 @@ use std::fmt::{self, Display};
 use divan::Bencher;
 use rayon::ThreadPoolBuilder;
 use sph_solver::Snapshot;
+use sph_solver::step::guard;
 use sph_tests::{assembled, shipped};
 
 use running::advance;
@@ -79,7 +80,11 @@ fn timed_in<const D: usize>(bencher: Bencher, case: Case, what: What) {
     bencher.bench_local(|| {
         pool.install(|| match what {
             What::Step => advance(&mut parts),
-            What::Guard => parts.flow.guard(bounds).expect("a good state"),
+            What::Guard => {
+                let (world, laws) = (&parts.flow.world, &parts.flow.laws);
+                guard::positions(world).expect("places within the domain");
+                guard::rates(world, laws, bounds).expect("a good state");
+            }
             What::Snapshot => kept.take(&parts.flow).expect("all columns"),
         });
     });

@@ -1,6 +1,8 @@
 //! Pieces of physics, the scene that they are in, and columns that they bring along.
 
-use sph_core::{AnyField, Evolved, Field, Scalar, Vect, Vector, suggestion};
+use std::ops::Range;
+
+use sph_core::{AnyField, Evolved, Field, FieldError, Scalar, Store, Vect, fields, suggestion};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
 
@@ -132,24 +134,14 @@ pub struct Birth<'a, const D: usize> {
     pub body: &'a str,
 }
 
-type Formula<const D: usize, T> = Box<dyn Fn(&Birth<'_, D>) -> T + Send + Sync>;
-
-/// Values of a column at the start.
-pub enum Initial<const D: usize> {
-    /// Zero.
-    Zero,
-    /// A number per particle.
-    Scalar(Formula<D, f64>),
-    /// A vector per particle.
-    Vector(Formula<D, Vect<D>>),
-}
+type Formula<const D: usize> = Box<dyn Fn(&Birth<'_, D>) -> f64 + Send + Sync>;
 
 /// A column that carries history: sorted with the particles, kept within a step, rolled back, saved.
 pub struct OwnColumn<const D: usize> {
     /// The field.
-    pub field: AnyField,
-    /// Its values at the start.
-    pub initial: Initial<D>,
+    pub field: Field<Scalar>,
+    /// Its value at the start, by the particle.
+    initial: Formula<D>,
     /// Least and largest value with which particles may come in.
     pub within: [f64; 2],
 }
@@ -160,29 +152,40 @@ impl<const D: usize> OwnColumn<D> {
         field: Field<Scalar>,
         initial: impl Fn(&Birth<'_, D>) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        Self::new(field.any(), Initial::Scalar(Box::new(initial)))
-    }
-
-    /// A vector with its value at the start.
-    pub fn vector(
-        field: Field<Vector>,
-        initial: impl Fn(&Birth<'_, D>) -> Vect<D> + Send + Sync + 'static,
-    ) -> Self {
-        Self::new(field.any(), Initial::Vector(Box::new(initial)))
-    }
-
-    /// A column of any type that starts with zeros.
-    pub fn zero(field: AnyField) -> Self {
-        Self::new(field, Initial::Zero)
-    }
-
-    fn new(field: AnyField, initial: Initial<D>) -> Self {
-        let within = [f64::NEG_INFINITY, f64::INFINITY];
         OwnColumn {
             field,
-            initial,
-            within,
+            initial: Box::new(initial),
+            within: [f64::NEG_INFINITY, f64::INFINITY],
         }
+    }
+
+    /// Gives the particles of some slots their values at the start; `names` has the phase and the body of a particle.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn begin<'n>(
+        &self,
+        free: &mut Store<D>,
+        slots: Range<usize>,
+        names: impl Fn(usize) -> (&'n str, &'n str),
+    ) -> Result<(), FieldError> {
+        let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
+        let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
+        let birth = |k: usize| {
+            let (phase, body) = names(k);
+            Birth {
+                position: position[k],
+                velocity: velocity[k],
+                density: density[k],
+                mass: mass[k],
+                phase,
+                body,
+            }
+        };
+        let births = slots.clone().map(birth);
+        let values: Vec<f64> = births.map(|birth| (self.initial)(&birth)).collect();
+        free.get_mut(self.field)?[slots].copy_from_slice(&values);
+        Ok(())
     }
 
     /// The same column, whose values may not be zero or negative where particles come in.

@@ -26,7 +26,7 @@ mod offer;
 mod plugins;
 mod step_hook;
 
-pub use contribution::{Birth, Contribution, Initial, OwnColumn, Refusal, Setting};
+pub use contribution::{Birth, Contribution, OwnColumn, Refusal, Setting};
 pub use gate::{Gate, Newborn, even_out};
 pub use kinds::{Contributor, FromPlugins, Part, contributes, parts};
 pub use limits::{

@@ -1,9 +1,10 @@
 //! An axis of space, as scenes name it.
 
-use sph_derive::parameters;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// An axis of space.
-#[parameters(crate: crate::reexport)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// The first.

@@ -26,6 +26,7 @@ mod table;
 use proc_macro::TokenStream;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
+use syn::parse::Nothing;
 use syn::{DeriveInput, parse_macro_input};
 
 /// A plugin: the parameters of [`macro@parameters`], offered to scenes under a name.
@@ -41,7 +42,7 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let registration = parse_macro_input!(arguments as registration::Registration);
     let item = parse_macro_input!(item as DeriveInput);
     let registered = registration.expand(&item.ident);
-    expanded(item, &quote!(::sph_core::reexport), Some(registered))
+    expanded(item, Some(registered))
 }
 
 /// A table of parameters, or a choice between variants in kebab case, that is a part of a plugin or of a scene.
@@ -49,12 +50,10 @@ pub fn plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// A field takes `#[parameter(…)]` with any of `default` (that of its type), `default: value`, `unit`, `min`, `max`,
 /// `above` and `below` (bounds that are not reached), `min_items`, `max_items`, `quantity`, `examples`, `source`. Its doc
 /// comment is its meaning.
-///
-/// `#[parameters(crate: path)]` names the module with `serde` and `schemars`, where that is not `sph_core`'s.
 #[proc_macro_attribute]
 pub fn parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    let root = parse_macro_input!(arguments as table::Root);
-    expanded(parse_macro_input!(item as DeriveInput), &root.0, None)
+    parse_macro_input!(arguments as Nothing);
+    expanded(parse_macro_input!(item as DeriveInput), None)
 }
 
 /// The type that [`macro@plugin`] makes, without scenes: its derives of the standard library, and its `Default`. For
@@ -68,12 +67,12 @@ pub fn plain_plugin(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// The type that [`macro@parameters`] makes, without scenes.
 #[proc_macro_attribute]
 pub fn plain_parameters(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    parse_macro_input!(arguments as table::Root);
+    parse_macro_input!(arguments as Nothing);
     plain(parse_macro_input!(item as DeriveInput), false)
 }
 
 fn plain(item: DeriveInput, is_plugin: bool) -> TokenStream {
-    let code = table::expand(item, None, is_plugin);
+    let code = table::expand(item, false, is_plugin);
     code.unwrap_or_else(syn::Error::into_compile_error).into()
 }
 
@@ -109,13 +108,13 @@ pub fn pair_sum(_: TokenStream, item: TokenStream) -> TokenStream {
 
 /// The table, and the registration of a plugin. After a mistake in the words of a parameter all goes on without them, so
 /// that the uses of the type are no further errors.
-fn expanded(mut item: DeriveInput, root: &Tokens, registered: Option<Tokens>) -> TokenStream {
-    let error = match table::expand(item.clone(), Some(root), registered.is_some()) {
+fn expanded(mut item: DeriveInput, registered: Option<Tokens>) -> TokenStream {
+    let error = match table::expand(item.clone(), true, registered.is_some()) {
         Ok(table) => return quote!(#table #registered).into(),
         Err(error) => error.into_compile_error(),
     };
     table::take(&mut item, &["parameter"]);
-    let table = table::expand(item, Some(root), registered.is_some()).ok();
+    let table = table::expand(item, true, registered.is_some()).ok();
     let registered = table.is_some().then_some(registered);
     quote!(#error #table #registered).into()
 }

@@ -1,40 +1,19 @@
 //! The derives and attributes of a table of parameters, or of a choice between variants.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::quote;
-use syn::ext::IdentExt;
-use syn::parse::{Parse, ParseStream};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
 use syn::{Attribute, Data, DataEnum, DataStruct, DeriveInput, Error, Fields};
 
-use crate::defaults::Defaults;
-use crate::defaults::{is_number, is_skipped, words};
-use crate::parameter::value;
+use crate::defaults::{Defaults, is_number, is_skipped, words};
 
-/// The module with `serde` and `schemars`.
-pub struct Root(pub TokenStream);
-
-impl Parse for Root {
-    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        if input.is_empty() {
-            return Ok(Self(quote!(::sph_core::reexport)));
-        }
-        let word = input.call(Ident::parse_any)?;
-        let message = "expected `crate: path`, or nothing";
-        match word == "crate" {
-            true => value(&word, input).map(Self),
-            false => Err(Error::new_spanned(word, message)),
-        }
-    }
-}
-
-/// The type with the words of its attribute, for scenes, with the module `root`. Without that, as it is without
-/// scenes: its words and those for `serde` and `schemars` are gone, and with them the traits of texts.
+/// The type with the words of its attribute, for scenes or as it is without: then its words and those for `serde` and
+/// `schemars` are gone, and with them the traits of texts.
 ///
 /// # Errors
 /// Unknown words; a union; fields without names.
 pub fn expand(
     mut item: DeriveInput,
-    root: Option<&TokenStream>,
+    for_scenes: bool,
     is_plugin: bool,
 ) -> syn::Result<TokenStream> {
     let derived = words(&item.attrs, "derive");
@@ -58,23 +37,19 @@ pub fn expand(
     }
     derives.retain(|name| !derived.iter().any(|d| d == name));
     let default = default.filter(|_| !derived.iter().any(|d| d == "Default"));
-    let Some(root) = root else {
+    if !for_scenes {
         take(&mut item, &["serde", "schemars"]);
         derives.retain(|name| !["Deserialize", "JsonSchema", "Serialize"].contains(name));
-        let derives = derives
-            .iter()
-            .map(|name| path_of(name, &TokenStream::new()));
+        let derives = derives.into_iter().map(path_of);
         // The values of single fields are called by the whole alone.
         let defaults = default.is_some().then_some(defaults);
         return Ok(quote!(#[derive(#(#derives),*)] #item #defaults #default));
-    };
-    let derives = derives.iter().map(|name| path_of(name, root));
-    let place = root.to_string().replace(' ', "");
-    let [at_serde, at_schemars] = ["serde", "schemars"].map(|name| format!("{place}::{name}"));
+    }
+    let derives = derives.into_iter().map(path_of);
     Ok(quote! {
         #[derive(#(#derives),*)]
-        #[serde(crate = #at_serde, #(#serde),*)]
-        #[schemars(crate = #at_schemars)]
+        #[serde(crate = "::sph_core::reexport::serde", #(#serde),*)]
+        #[schemars(crate = "::sph_core::reexport::schemars")]
         #item
         #defaults
         #default
@@ -101,17 +76,12 @@ pub fn take(item: &mut DeriveInput, names: &[&str]) {
     }
 }
 
-fn path_of(name: &str, root: &TokenStream) -> TokenStream {
+fn path_of(name: &str) -> TokenStream {
+    let of_trait = format_ident!("{name}");
     match name {
-        "Clone" => quote!(::core::clone::Clone),
-        "Copy" => quote!(::core::marker::Copy),
-        "Debug" => quote!(::core::fmt::Debug),
-        "Default" => quote!(::core::default::Default),
-        "Deserialize" => quote!(#root::serde::Deserialize),
-        "Eq" => quote!(::core::cmp::Eq),
-        "JsonSchema" => quote!(#root::schemars::JsonSchema),
-        "PartialEq" => quote!(::core::cmp::PartialEq),
-        _ => quote!(#root::serde::Serialize),
+        "Deserialize" | "Serialize" => quote!(::sph_core::reexport::serde::#of_trait),
+        "JsonSchema" => quote!(::sph_core::reexport::schemars::JsonSchema),
+        _ => quote!(::core::prelude::v1::#of_trait),
     }
 }
 
@@ -190,7 +160,7 @@ mod tests {
 
     fn expanded(item: &str, is_plugin: bool) -> String {
         let item = syn::parse_str(item).expect("an item");
-        let code = expand(item, Some(&quote!(::root)), is_plugin);
+        let code = expand(item, true, is_plugin);
         let code = code.unwrap_or_else(Error::into_compile_error);
         code.to_string().replace(' ', "")
     }
@@ -207,12 +177,12 @@ mod tests {
     #[test]
     fn numbers_are_copied_and_what_is_kept_is_not_cloned() {
         let numbers = "struct A { a: f64, b: Option<[u32; 2]> }";
-        assert_parts(&expanded(numbers, true), &["marker::Copy"], &[]);
+        assert_parts(&expanded(numbers, true), &["v1::Copy"], &[]);
         let text = "struct A { a: String }";
-        assert_parts(&expanded(text, true), &["clone::Clone"], &["marker::Copy"]);
+        assert_parts(&expanded(text, true), &["v1::Clone"], &["v1::Copy"]);
         let keeps = "struct A { #[serde(skip)] a: Mutex<f64> }";
-        assert_parts(&expanded(keeps, true), &[], &["clone::Clone"]);
-        assert_parts(&expanded(keeps, false), &["clone::Clone"], &[]);
+        assert_parts(&expanded(keeps, true), &[], &["v1::Clone"]);
+        assert_parts(&expanded(keeps, false), &["v1::Clone"], &[]);
         let code = expanded("#[derive(Clone, Default)] struct A { a: f64 }", true);
         assert_eq!(code.matches("Clone").count(), 1, "{code}");
     }
@@ -234,12 +204,12 @@ mod tests {
     fn choices_are_in_kebab_case_unless_an_author_says_otherwise() {
         let code = expanded("enum A { #[default] OneTwo, Three }", false);
         let kebab = r#"rename_all="kebab-case""#;
-        assert_parts(&code, &[kebab, "cmp::Eq", "default::Default"], &[]);
+        assert_parts(&code, &[kebab, "v1::Eq", "v1::Default"], &[]);
         let own = r#"#[serde(rename_all = "lowercase")] enum A { One { a: f64 } }"#;
         assert_parts(
             &expanded(own, false),
             &["deny_unknown_fields"],
-            &["kebab", "cmp::Eq"],
+            &["kebab", "v1::Eq"],
         );
     }
 
@@ -250,27 +220,27 @@ mod tests {
             "enum A { B { #[parameter(sauce: 1)] a: f64 } }",
         ] {
             let mut item: DeriveInput = syn::parse_str(item).expect("an item");
-            assert!(expand(item.clone(), Some(&quote!(::root)), true).is_err());
+            assert!(expand(item.clone(), true, true).is_err());
             take(&mut item, &["parameter"]);
-            assert!(expand(item, Some(&quote!(::root)), true).is_ok());
+            assert!(expand(item, true, true).is_ok());
         }
     }
 
     #[test]
     fn a_plain_type_has_its_default_and_nothing_of_texts() {
         let bare = |item: &str| {
-            let code = expand(syn::parse_str(item).expect("an item"), None, true).expect("words");
+            let code = expand(syn::parse_str(item).expect("an item"), false, true).expect("words");
             code.to_string().replace(' ', "")
         };
         let item =
             r#"struct A { #[parameter(default: 0.5, unit: "m")] #[serde(alias = "b")] a: f64 }"#;
-        let has = ["default::DefaultforA", "marker::Copy"];
+        let has = ["default::DefaultforA", "v1::Copy"];
         assert_parts(&bare(item), &has, &["serde", "schema", "unit"]);
         // The function would have no call.
         let some = "struct A { #[parameter(default: 0.5)] a: f64, b: f64 }";
         assert_parts(&bare(some), &[], &["default_a"]);
         let choice = "enum A { #[default] #[serde(rename = \"b\")] B, C }";
-        assert_parts(&bare(choice), &["#[default]B", "cmp::Eq"], &["serde"]);
+        assert_parts(&bare(choice), &["#[default]B", "v1::Eq"], &["serde"]);
     }
 
     #[test]

@@ -22,5 +22,5 @@ pub use results::summary::{Drift, ErrorEntry, RankShare, Summary};
 pub use running::run::{run, run_on_threads, run_part};
 pub use running::trial::{Trial, examine_and_try};
 pub use sph_multiphase::viscosity::Solves;
-pub use subject::{Particles, identity, marks};
+pub use subject::{Particles, identity};
 pub use zones::{Stepper, ZoneSize};

@@ -3,7 +3,6 @@
 pub(crate) mod checkpoint;
 pub(crate) mod counters;
 pub(crate) mod course;
-pub(crate) mod drawn_flow;
 pub(crate) mod model;
 pub(crate) mod next_step;
 pub(crate) mod output;
@@ -14,4 +13,3 @@ pub(crate) mod series;
 pub(crate) mod stepper;
 pub(crate) mod trial;
 pub(crate) mod watches;
-pub(crate) mod writing;

@@ -49,11 +49,8 @@ impl Subject for Scene {
     }
 
     fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
-        let first = |error| problems(error).into_iter().next();
-        let none = || SceneProblem::new("", "");
-        let marks = marks(&self.0).map_err(|error| first(error).unwrap_or_else(none))?;
         let each = |mark: FileMark| (mark.key, mark.content.to_string());
-        Ok(marks.into_iter().map(each).collect())
+        Ok(marks(&self.0)?.into_iter().map(each).collect())
     }
 
     fn end(&self) -> f64 {
@@ -120,15 +117,11 @@ pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
 }
 
 /// Every file that a scene names, with its contents.
-///
-/// # Errors
-/// A file that cannot be read, at its key.
-pub fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SolverError> {
+fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SceneProblem> {
     let mark = |(key, file): (String, String)| {
-        let path = loaded.source.resolve(&key, &file);
-        let path = path.map_err(|why| SolverError::at(key.clone(), why))?;
-        let content = sph_io::checksum(&path, LONGEST);
-        let content = content.map_err(|e| SolverError::at(key.clone(), e.to_string()))?;
+        let at_key = |why: String| SceneProblem::new(key.clone(), why);
+        let path = loaded.source.resolve(&key, &file).map_err(at_key)?;
+        let content = sph_io::checksum(&path, LONGEST).map_err(|e| at_key(e.to_string()))?;
         Ok(FileMark { content, key, file })
     };
     loaded.files().into_iter().map(mark).collect()

@@ -21,9 +21,8 @@ pub fn run<M: Model>(
     outlay: Outlay,
     observer: &mut Watch<'_>,
 ) -> Result<Option<M::Summary>, M::Error> {
-    let started = Instant::now();
     let opened = Opened::open(model, options, Some(outlay), observer)?;
-    opened.drive(model, schedule, started, observer)
+    opened.drive(model, schedule, observer)
 }
 
 /// A run whose folder is its own, and whose model is where it begins.
@@ -54,7 +53,7 @@ impl Opened {
         outlay: Option<Outlay>,
         observer: &mut Watch<'_>,
     ) -> Result<Self, M::Error> {
-        let folder = &options.out;
+        let (folder, started) = (&options.out, Instant::now());
         let mut held = None;
         if outlay.is_some() {
             held = Some(take(folder, observer)?);
@@ -99,11 +98,11 @@ impl Opened {
             books,
             files,
             _lock: held,
-            started: Instant::now(),
+            started,
         })
     }
 
-    /// Steps the model to the end, and writes the outputs that are due; the wall-clock time counts from `started`.
+    /// Steps the model to the end, and writes the outputs that are due.
     ///
     /// # Errors
     /// Files that cannot be written, what goes wrong in the model.
@@ -111,10 +110,8 @@ impl Opened {
         mut self,
         model: &mut M,
         schedule: &Schedule<'_>,
-        started: Instant,
         observer: &mut Watch<'_>,
     ) -> Result<Option<M::Summary>, M::Error> {
-        self.started = started;
         match self.drive_to_end(model, schedule, observer)? {
             Ok(status) => {
                 let film = self.files.as_ref().map(|f| f.frames.film());
@@ -175,7 +172,9 @@ impl Opened {
             let stepped = now.time > self.books.time;
             self.books.time = now.time;
             if stepped {
-                let stop = self.wants_to_stop(&now, schedule, observer);
+                let command = observer.step(&now);
+                let late = |most| self.counters().wall_seconds > most;
+                let stop = command == Command::Stop || schedule.max_wall.is_some_and(late);
                 match model.agree(Poll::Stop(stop)) {
                     Ok(false) => {}
                     Ok(true) => {
@@ -208,19 +207,6 @@ impl Opened {
             }
             limit = schedule.target(&self.books);
         }
-    }
-
-    /// Reports a step; whether the observer or the bound on the run time stops it.
-    fn wants_to_stop(
-        &mut self,
-        now: &Progress,
-        schedule: &Schedule<'_>,
-        observer: &mut Watch<'_>,
-    ) -> bool {
-        let command = observer.step(now);
-        let most = schedule.max_wall;
-        let late = most.is_some_and(|most| self.counters().wall_seconds > most);
-        command == Command::Stop || late
     }
 
     fn write<M: Model>(

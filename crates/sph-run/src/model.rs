@@ -116,13 +116,16 @@ pub struct RunCounters {
     pub time: f64,
     /// Rows of the series that were due so far.
     pub rows: u64,
-    /// Time of the last row, s.
+    /// Time of the last row, s: a run that is over has its last row.
+    #[serde(with = "bits")]
     pub last_row: Option<f64>,
     /// Bytes of the series.
+    #[serde(rename = "series_position")]
     pub series: u64,
     /// Outputs of fields written.
     pub outputs: usize,
     /// Time of the next output of fields, s.
+    #[serde(with = "bits")]
     pub next_output: Option<f64>,
     /// Checkpoints that were due so far.
     pub checkpoints: u64,
@@ -133,6 +136,19 @@ pub struct RunCounters {
     /// Wall-clock time of the writing since the run began or went on, s.
     #[serde(skip)]
     pub output_seconds: f64,
+}
+
+/// Times as bits, so that nothing is lost on the way through a text.
+mod bits {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(time: &Option<f64>, to: S) -> Result<S::Ok, S::Error> {
+        time.map(f64::to_bits).serialize(to)
+    }
+
+    pub fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Option<f64>, D::Error> {
+        Ok(Option::deserialize(from)?.map(f64::from_bits))
+    }
 }
 
 /// Progress of a run.

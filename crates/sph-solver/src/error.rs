@@ -46,12 +46,4 @@ impl SolverError {
             false => Err(SolverError::Scene(problems)),
         }
     }
-
-    /// 2 for a bad scene, 1 for everything that went wrong later.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            SolverError::Scene(_) | SolverError::Plan(_) => 2,
-            SolverError::Step(_) => 1,
-        }
-    }
 }

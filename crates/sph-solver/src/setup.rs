@@ -4,6 +4,5 @@ pub(crate) mod assembly;
 pub(crate) mod choices;
 pub(crate) mod planning;
 
-pub use assembly::{FlowInputs, joined};
 pub use choices::{Choices, own_accounts, plugins, shown};
-pub use planning::{Planning, SharedTerms, StagePlan};
+pub use planning::{Planning, StagePlan};

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use sph_core::{StepError, Vect, fields};
+use sph_core::{Vect, fields};
 use sph_io::{Picture, View};
 use sph_run::{BAD_STATE_NEAR, BAD_STATE_PICTURE};
 use sph_solver::Flow;
 
-use crate::running::drawn_flow::{column_of, drawn_walls, padded};
+use crate::running::pieces::{column_of, drawn_walls, padded};
 
 /// Half the width of the enlarged view, in spacings.
 const REACH: f64 = 10.0;
@@ -16,34 +16,22 @@ const BEYOND: f64 = 0.01;
 /// Half the thickness of the slice through a body of three dimensions, in spacings.
 const SLICE: f64 = 1.0;
 
-/// The column that shows the failure.
-fn deciding_column(cause: &StepError) -> &'static str {
-    match cause {
-        StepError::Bad {
-            quantity: "density",
-            ..
-        } => fields::DENSITY.name,
-        StepError::Bad {
-            quantity: "acceleration",
-            ..
-        } => fields::ACCELERATION.name,
-        StepError::Stage { stage, .. } if stage == "effective pressure" => {
-            fields::EFFECTIVE_PRESSURE.name
-        }
-        _ => fields::VELOCITY.name,
-    }
-}
-
-/// Draws the whole flow and the surroundings of a place; the files that could be written.
+/// Draws the column that shows a bad quantity, of the whole flow and around a place; the files that could be written.
 pub fn draw<const D: usize>(
     flow: &Flow<D>,
-    cause: &StepError,
+    quantity: &str,
     place: Option<Vect<D>>,
     title: &str,
     folder: &Path,
 ) -> Vec<PathBuf> {
     let world = &flow.world;
-    let Some((label, mut values)) = column_of(flow, deciding_column(cause)) else {
+    let column = match quantity {
+        "density" => fields::DENSITY.name,
+        "acceleration" => fields::ACCELERATION.name,
+        "effective pressure" => fields::EFFECTIVE_PRESSURE.name,
+        _ => fields::VELOCITY.name,
+    };
+    let Some((label, mut values)) = column_of(flow, column) else {
         return Vec::new();
     };
     let Ok(position) = world.free.get(fields::POSITION) else {

@@ -72,12 +72,4 @@ impl RunError {
     pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
         RunError::Solver(SolverError::at(path, message))
     }
-
-    /// 2 for a bad scene, 1 for everything that went wrong later.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            RunError::Solver(error) => error.exit_code(),
-            _ => 1,
-        }
-    }
 }

@@ -120,21 +120,14 @@ pub fn place_of<const D: usize>(flow: &Flow<D>, number: u32) -> Option<usize> {
 pub fn shares_on<const D: usize>(flow: &Flow<D>, particle: usize) -> Vec<Share> {
     let terms = shares_at(&flow.world, &flow.forces(), particle).unwrap_or_default();
     let kind = |term: &str| flow.kinds.iter().find(|(name, _)| name == term);
-    let mut shares = Vec::new();
-    for TermShare {
-        name,
-        rates,
-        of_walls,
-    } in &terms
-    {
-        shares.push(Share {
-            term: name.clone(),
-            kind: kind(name).map_or(String::new(), |(_, kind)| kind.to_string()),
-            acceleration: finite(rates.acceleration.norm()),
-            of_walls: finite(of_walls.norm()),
-            density_rate: finite(rates.scalar).filter(|r| *r != 0.0),
-        });
-    }
+    let share = |term: &TermShare<D>| Share {
+        term: term.name.clone(),
+        kind: kind(&term.name).map_or(String::new(), |(_, kind)| kind.to_string()),
+        acceleration: finite(term.rates.acceleration.norm()),
+        of_walls: finite(term.of_walls.norm()),
+        density_rate: finite(term.rates.scalar).filter(|r| *r != 0.0),
+    };
+    let mut shares: Vec<Share> = terms.iter().map(share).collect();
     let world = &flow.world;
     let volume_forces = [("gravity", &world.gravity), ("driving", &world.driving)];
     for (term, a) in volume_forces.into_iter().filter(|(_, a)| a.norm() > 0.0) {

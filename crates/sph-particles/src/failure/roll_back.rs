@@ -113,7 +113,8 @@ impl<const D: usize> Running<'_, D> {
             let particle = failure.findings.particle.as_ref();
             let place = particle.and_then(|p| self.place(p.number));
             let title = format!("failed: {}", self.scene.title);
-            failure.pictures = bad_pictures::draw(flow, &failure.cause, place, &title, out);
+            let quantity = &failure.findings.cause.quantity;
+            failure.pictures = bad_pictures::draw(flow, quantity, place, &title, out);
         }
         self.go_to_the_last_good_state(failure, books);
         if !self.writes() {

@@ -97,6 +97,16 @@ impl<const D: usize> Running<'_, D> {
         Ok(summary)
     }
 
+    /// Wall-clock time of stages, hooks and outputs, s.
+    pub fn stage_seconds(&self, books: &RunCounters) -> BTreeMap<String, f64> {
+        let mut all = self.counters.stage_seconds.clone();
+        for timing in &self.parts.flow.timings {
+            *all.entry(timing.name.clone()).or_default() += timing.spent.as_secs_f64();
+        }
+        *all.entry("output".into()).or_default() += books.output_seconds;
+        all
+    }
+
     /// Particles that left by the scene's exits, and by the border of the domain if there are any.
     fn left(&self) -> BTreeMap<String, OutletTotals> {
         let flow = &self.parts.flow;
@@ -167,7 +177,7 @@ impl<const D: usize> Running<'_, D> {
         }
         let (over, remedy) = self.departure.remarks();
         warnings.extend(over);
-        advice.extend(remedy);
+        advice.extend(remedy.into_iter().map(String::from));
         let [.., fast] = self.extrema.peaks;
         if fast > SHARE {
             advice.push(format!(

@@ -9,8 +9,7 @@ use sph_solver::Flow;
 use toml::{Table, Value};
 
 use crate::failure::error::Result;
-use crate::running::drawn_flow::{drawn_walls, padded};
-use crate::running::pieces::points;
+use crate::running::pieces::{drawn_walls, padded, points};
 use crate::setup::{Assembled, assemble, box_around, corner};
 
 const NORMAL: Colour = Colour([0x7a, 0x7a, 0x7a]);

@@ -4,24 +4,20 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
-use sph_io::ColourRanges;
 use sph_run::{RunCounters, Trouble};
 use sph_scene::Scene;
 
 /// Counters of a run, as they stand in a checkpoint.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Counters {
+    /// Those of the driver.
+    #[serde(flatten)]
+    pub(crate) books: RunCounters,
     pub(crate) steps: u64,
     pub(crate) rolled_back: u64,
     /// Roll-backs since the step had its whole length.
     #[serde(default)]
     pub(crate) retries: u32,
-    pub(crate) outputs: usize,
-    pub(crate) next_output: Option<u64>,
-    pub(crate) rows: u64,
-    /// Time of the last row, as bits: a run that is over has its last row.
-    pub(crate) last_row: Option<u64>,
-    pub(crate) series_position: u64,
     pub(crate) series_extrema: [u64; 4],
     /// Highest energy, largest Mach number and largest share of fast mass of all rows; an earlier version wrote fewer.
     pub(crate) series_peaks: Option<Vec<u64>>,
@@ -30,12 +26,10 @@ pub(crate) struct Counters {
     pub(crate) first_trouble: Option<Trouble>,
     /// Time at which a run began that started from another's state.
     pub(crate) started_at: Option<u64>,
-    pub(crate) checkpoints: u64,
     pub(crate) limited: BTreeMap<String, u64>,
     /// Σ 1/Δt of every bound, 1/s.
     #[serde(default)]
     pub(crate) bounds: BTreeMap<String, f64>,
-    pub(crate) wall_seconds: f64,
     pub(crate) stage_seconds: BTreeMap<String, f64>,
     pub(crate) initial: [u64; 2],
     pub(crate) initial_momentum: Vec<u64>,
@@ -52,9 +46,6 @@ pub(crate) struct Counters {
     /// Most bytes of the system that each stage has solved so far.
     #[serde(default)]
     pub(crate) stage_bytes: Vec<usize>,
-    /// Ranges of the colours of pictures so far.
-    #[serde(default)]
-    pub(crate) colours: ColourRanges,
 }
 
 /// Largest count that is believed: a million steps a second for three centuries. Far below 2⁶⁴, so that
@@ -64,34 +55,6 @@ pub(crate) const MOST: u64 = 1 << 53;
 const ROUNDING: f64 = 1e-9;
 
 impl Counters {
-    /// Counts of the driver, at a time (s).
-    pub fn books(&self, time: f64) -> RunCounters {
-        RunCounters {
-            time,
-            rows: self.rows,
-            last_row: self.last_row.map(f64::from_bits),
-            series: self.series_position,
-            outputs: self.outputs,
-            next_output: self.next_output.map(f64::from_bits),
-            checkpoints: self.checkpoints,
-            colours: self.colours.clone(),
-            wall_seconds: self.wall_seconds,
-            output_seconds: 0.0,
-        }
-    }
-
-    /// Takes over the counts of the driver.
-    pub fn take(&mut self, books: &RunCounters) {
-        self.rows = books.rows;
-        self.last_row = books.last_row.map(f64::to_bits);
-        self.series_position = books.series;
-        self.outputs = books.outputs;
-        self.next_output = books.next_output.map(f64::to_bits);
-        self.checkpoints = books.checkpoints;
-        self.colours.clone_from(&books.colours);
-        self.wall_seconds = books.wall_seconds;
-    }
-
     /// Those of a run that begins.
     pub fn begin() -> Self {
         Counters {
@@ -114,8 +77,8 @@ impl Counters {
             let rows = most(scene.output.series_interval(scene.run.end)) + 1;
             let saved = most(scene.run.checkpoint_interval());
             let told = [
-                (self.rows, "rows of the series", rows),
-                (self.checkpoints, "checkpoints", saved),
+                (self.books.rows, "rows of the series", rows),
+                (self.books.checkpoints, "checkpoints", saved),
             ];
             let (n, of, most) = told.into_iter().find(|(n, _, most)| n > most)?;
             Some(format!("it counts {n} {of} by then, more than {most}"))
@@ -127,7 +90,7 @@ impl Counters {
         let mut counts = vec![
             ("steps", self.steps),
             ("rolled_back", self.rolled_back),
-            ("outputs", self.outputs as u64),
+            ("outputs", self.books.outputs as u64),
         ];
         counts.extend(self.limited.values().map(|n| ("limited", *n)));
         counts.extend(self.left.iter().map(|[_, n]| ("left", *n)));
@@ -143,7 +106,7 @@ impl Counters {
     fn numbers(&self, time: f64) -> Option<String> {
         let counts = |x: f64| x >= 0.0 && x.is_finite();
         let sums = self.bounds.values().chain(self.stage_seconds.values());
-        if !sums.chain([&self.wall_seconds]).all(|x| counts(*x)) {
+        if !sums.chain([&self.books.wall_seconds]).all(|x| counts(*x)) {
             return Some("it has clocks that run backwards or are not finite".into());
         }
         let mut left = self.left.iter().map(|[mass, _]| f64::from_bits(*mass));
@@ -156,23 +119,27 @@ impl Counters {
         if extrema.map(f64::from_bits).any(f64::is_nan) {
             return Some("extrema of its series are not numbers".into());
         }
-        let mut past = [("last_row", self.last_row), ("started_at", self.started_at)].into_iter();
-        let ahead = |t: u64| !(0.0..=time).contains(&f64::from_bits(t));
-        if let Some((name, _)) = past.find(|(_, t)| t.is_some_and(ahead)) {
+        let started_at = self.started_at.map(f64::from_bits);
+        let past = [
+            ("last_row", self.books.last_row),
+            ("started_at", started_at),
+        ];
+        let ahead = |t: f64| !(0.0..=time).contains(&t);
+        if let Some((name, _)) = past.into_iter().find(|(_, t)| t.is_some_and(ahead)) {
             return Some(format!("its `{name}` is not before its time"));
         }
-        let next = self.next_output.map(f64::from_bits);
         let comes = |t: f64| t.is_finite() && t >= time * (1.0 - ROUNDING);
-        let late = next.is_some_and(|t| !comes(t));
+        let late = self.books.next_output.is_some_and(|t| !comes(t));
         late.then(|| "its `next_output` is not after its time".into())
     }
 
     /// Counts in intervals of the scene, for a scene whose intervals may be others than before.
     pub fn recount(&mut self, scene: &Scene, time: f64) {
-        if let Some(last) = self.last_row.map(f64::from_bits) {
-            self.rows = (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
+        if let Some(last) = self.books.last_row {
+            self.books.rows =
+                (last / scene.output.series_interval(scene.run.end)).floor() as u64 + 1;
         }
-        self.checkpoints = (time / scene.run.checkpoint_interval()).floor() as u64;
+        self.books.checkpoints = (time / scene.run.checkpoint_interval()).floor() as u64;
     }
 }
 

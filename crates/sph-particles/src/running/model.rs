@@ -7,7 +7,8 @@ use sph_neighbours::decomposition::PartError;
 use sph_run::{Frames, Model, Poll, Progress, RunCounters, Start, Status, Watch};
 
 use crate::failure::error::Result;
-use crate::running::checkpoint::begin;
+use crate::running::checkpoint::{self, begin};
+use crate::running::counters::Counters;
 use crate::running::course::{DerivedState, Running};
 use crate::running::output::shows_depths;
 use crate::running::ranked::{columns_of_all, looks_around};
@@ -46,7 +47,8 @@ impl<const D: usize> Model for Running<'_, D> {
                 sums.recall(&gathered);
             }
         }
-        self.energy.recall(self.counters.energies);
+        let energies = self.counters.energies;
+        self.energy.so_far = energies.map(|all| all.map(f64::from_bits));
         if start.goes_on() {
             let [low, high, energy, momentum] = self.counters.series_extrema.map(f64::from_bits);
             self.extrema.density_range = [low, high];
@@ -56,7 +58,8 @@ impl<const D: usize> Model for Running<'_, D> {
         for (peak, bits) in self.extrema.peaks.iter_mut().zip(kept) {
             *peak = f64::from_bits(*bits);
         }
-        Ok(self.counters.books(self.parts.flow.world.time))
+        self.counters.books.time = self.parts.flow.world.time;
+        Ok(self.counters.books.clone())
     }
 
     /// Steps that fail are tried again with half of their length, from the state before.
@@ -117,7 +120,7 @@ impl<const D: usize> Model for Running<'_, D> {
         for told in self.write_output(frames)? {
             observer.message(&told);
         }
-        self.counters.outputs += 1;
+        self.counters.books.outputs += 1;
         Ok(())
     }
 
@@ -168,6 +171,52 @@ impl<const D: usize> Model for Running<'_, D> {
 }
 
 impl<const D: usize> Running<'_, D> {
+    /// The row of the whole flow.
+    fn measured(&mut self, observer: &mut Watch<'_>) -> Result<Vec<f64>> {
+        let shown = self.whole.as_ref().unwrap_or(&self.parts);
+        let (row, balance) = self.extrema.row(shown, &self.zones)?;
+        let (left, time) = (shown.flow.mass_left(), shown.flow.world.time);
+        let told = self.mach.look(&balance).into_iter();
+        let told = told
+            .chain(self.energy.look(&balance, left, time))
+            .chain(self.departure.look(self.scene, &self.parts.flow));
+        told.for_each(|told| observer.message(&told));
+        let counters = &mut self.counters;
+        if counters.initial_momentum.is_empty() {
+            counters.initial = [balance.mass.to_bits(), balance.energy().to_bits()];
+            counters.initial_momentum = balance.momentum.iter().map(|m| m.to_bits()).collect();
+        }
+        Ok(row)
+    }
+
+    /// Writes a checkpoint of the state that the first rank has.
+    pub fn save_gathered(&mut self, books: &RunCounters, own: &Path) -> Result<()> {
+        if !self.writes() {
+            return Ok(());
+        }
+        let counters = &mut self.counters;
+        let (extrema, [low, high]) = (&self.extrema, self.extrema.density_range);
+        let numbers = [low, high, extrema.energy_scale, extrema.momentum_scale];
+        counters.series_extrema = numbers.map(f64::to_bits);
+        counters.series_peaks = Some(self.extrema.peaks.map(f64::to_bits).to_vec());
+        counters.energies = self.energy.so_far.map(|all| all.map(f64::to_bits));
+        counters.books = books.clone();
+        let left = self.parts.flow.left();
+        counters.left = left.map(|(_, l)| [l.mass.to_bits(), l.particles]).collect();
+        let shown = self.shown();
+        let sums = shown.probes.iter();
+        let sums = sums.filter_map(|(name, p)| Some((name.clone(), p.as_gathers()?.gathered())));
+        let counters = Counters {
+            stage_seconds: self.stage_seconds(books),
+            works: self.parts.flow.counts(),
+            probes: sums.filter(|(_, sums)| !sums.is_empty()).collect(),
+            ..self.counters.clone()
+        };
+        let identity = &self.options.identity;
+        checkpoint::save((&shown.flow, self.walls()), own, identity, &counters)?;
+        self.zones.save(own, identity)
+    }
+
     fn now(&self) -> Progress {
         let (dt, limiter) = self.tried;
         let world = &self.parts.flow.world;

@@ -5,25 +5,19 @@ use sph_io::{ColourMap, ColourRanges, FieldData, Picture, View};
 use sph_probes::{SURFACE_DISTANCE, surface_distance};
 use sph_run::{Frames, Outlay};
 use sph_scene::{Scene, given};
-use sph_solver::Flow;
 
 use crate::failure::error::Result;
-use crate::running::drawn_flow::{column_of, drawn_walls};
-use crate::running::pieces::{own_particles, particles, points, walls, zone_particles};
-use crate::setup::{Assembled, Probes};
-use crate::zones::Coupling;
+use crate::running::course::Running;
+use crate::running::pieces::{
+    column_of, drawn_walls, own_particles, particles, points, walls, write_own_share,
+    zone_particles,
+};
+use crate::setup::Probes;
 
 /// True if outputs show how far particles are from the surface, which is found from lists and contacts.
 pub fn shows_depths(scene: &Scene) -> bool {
     let mut shown = scene.output.fields.iter().chain(&scene.output.picture);
     shown.any(|name| name == SURFACE_DISTANCE.name)
-}
-
-/// Fields and pictures of a scene.
-pub(crate) struct Outputs<'a, const D: usize> {
-    pub scene: &'a Scene,
-    pub shown: &'a Assembled<D>,
-    pub zones: &'a Coupling<D>,
 }
 
 /// The files of a scene's outputs.
@@ -41,15 +35,29 @@ pub fn outlay<const D: usize>(scene: &Scene, probes: &Probes<D>) -> Outlay {
     }
 }
 
-impl<const D: usize> Outputs<'_, D> {
-    /// Writes all outputs of the scene at the flow's present time; `among` has this process' part of it and the number
-    /// of ranks, where these write frames together. Returns changes of the pictures.
-    pub fn write(
-        &self,
-        frames: &mut Frames,
-        among: Option<(&Flow<D>, usize)>,
-    ) -> Result<Vec<String>> {
-        let flow = &self.shown.flow;
+impl<const D: usize> Running<'_, D> {
+    /// Fields, pictures and curves. Ranks write the particles of a frame together, but where these have a depth that the first
+    /// alone has found. Returns changes of the pictures.
+    pub fn write_output(&self, frames: Option<&mut Frames>) -> Result<Vec<String>> {
+        let parts = self.parts.flow.parts.as_ref();
+        let communicator = parts.map(|p| (p.link.transport.rank(), p.link.transport.ranks()));
+        let together = self.scene.output.vtk && !shows_depths(self.scene);
+        let among = communicator.filter(|(_, ranks)| together && *ranks > 1);
+        match (frames, among) {
+            (Some(frames), among) => self.write_all(frames, among.map(|(_, ranks)| ranks)),
+            (None, Some((rank, _))) => {
+                let place = (self.counters.books.outputs, rank);
+                write_own_share(self.scene, &self.parts.flow, &self.options.out, place)?;
+                Ok(Vec::new())
+            }
+            (None, None) => Ok(Vec::new()),
+        }
+    }
+
+    /// Writes all outputs at the present time; `ranks` is the number of processes where these write frames together.
+    fn write_all(&self, frames: &mut Frames, ranks: Option<usize>) -> Result<Vec<String>> {
+        let shown = self.shown();
+        let flow = &shown.flow;
         let mut remarks = Vec::new();
         let points = points(flow)?;
         // No column: only an output reads it.
@@ -57,7 +65,7 @@ impl<const D: usize> Outputs<'_, D> {
             true => surface_distance(&flow.world)?,
             false => Vec::new(),
         };
-        self.write_frame(&points, &depths, frames, among)?;
+        self.write_frame(&points, &depths, frames, ranks)?;
         let phases: Vec<String> = self.scene.phase.keys().cloned().collect();
         for name in &self.scene.output.picture {
             let drawn = match name == SURFACE_DISTANCE.name {
@@ -77,20 +85,18 @@ impl<const D: usize> Outputs<'_, D> {
             };
             remarks.extend(told);
             let finest = self.finest(name)?;
-            let (points, values, diameters) = match &finest {
-                Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
-                None => (&points[..], &values[..], &[][..]),
-            };
+            let (points, values, diameters) =
+                finest.unwrap_or_else(|| (points.clone(), values, Vec::new()));
             let picture = Picture {
-                diameters,
+                diameters: &diameters,
                 walls: &drawn_walls(&flow.world),
                 classes,
                 range,
-                ..self.picture(points, &label, values)
+                ..self.picture(&points, &label, &values)
             };
             picture.save(frames.picture(name))?;
         }
-        for (name, probe) in &self.shown.probes {
+        for (name, probe) in &shown.probes {
             let Some(curves) = probe.as_curves() else {
                 continue;
             };
@@ -131,7 +137,7 @@ impl<const D: usize> Outputs<'_, D> {
         label: &'p str,
         values: &'p [f64],
     ) -> Picture<'p> {
-        let world = &self.shown.flow.world;
+        let world = &self.shown().flow.world;
         Picture {
             title: &self.scene.title,
             time: Some(world.time),
@@ -154,7 +160,7 @@ impl<const D: usize> Outputs<'_, D> {
         let given = given.and_then(|all| all.ends(field));
         let speeds = self.scene.phase.values().filter_map(|p| p.velocity_scale);
         let scale = match field {
-            _ if field == fields::PRESSURE.name => self.shown.pressure,
+            _ if field == fields::PRESSURE.name => self.shown().pressure,
             _ if field == fields::VELOCITY.name => speeds.fold(0.0, f64::max),
             _ => 0.0,
         };
@@ -178,15 +184,15 @@ impl<const D: usize> Outputs<'_, D> {
         points: &[[f64; 3]],
         depths: &[f64],
         frames: &mut Frames,
-        among: Option<(&Flow<D>, usize)>,
+        ranks: Option<usize>,
     ) -> Result<()> {
-        let flow = &self.shown.flow;
+        let flow = &self.shown().flow;
         if !frames.lists() {
             return Ok(());
         }
         let wanted = |name: &str| self.scene.output.fields.iter().any(|f| f == name);
-        let mut fluid = match among {
-            Some((part, _)) => own_particles(part, wanted)?,
+        let mut fluid = match ranks {
+            Some(_) => own_particles(&self.parts.flow, wanted)?,
             None => particles(&flow.world.free, points, wanted),
         };
         let depth = SURFACE_DISTANCE;
@@ -199,8 +205,7 @@ impl<const D: usize> Outputs<'_, D> {
             pieces.push(zone_particles(level, wanted)?);
         }
         pieces.extend(walls(&flow.world));
-        let ranks = among.map_or(1, |(_, ranks)| ranks);
-        Ok(frames.add(flow.world.time, pieces, ranks)?)
+        Ok(frames.add(flow.world.time, pieces, ranks.unwrap_or(1))?)
     }
 
     /// The finest particles everywhere with a column; none without zones, and where a flow has no such column.
@@ -209,7 +214,7 @@ impl<const D: usize> Outputs<'_, D> {
             return Ok(None);
         }
         let (mut places, mut values, mut diameters) = (Vec::new(), Vec::new(), Vec::new());
-        for (flow, some) in self.zones.finest(&self.shown.flow)? {
+        for (flow, some) in self.zones.finest(&self.shown().flow)? {
             let Some((_, column)) = column_of(flow, name) else {
                 return Ok(None);
             };

@@ -172,26 +172,27 @@ impl<const D: usize> Running<'_, D> {
             near.least,
             near.distances,
         ];
-        let own = own.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let own = own.map(f64::to_le_bytes).concat();
         let all = parts.link.transport.gather(own);
         let all = all.map_err(|e| StepError::from(PartError::from(e)))?;
         let read = |message: &Vec<u8>| {
-            let numbers = message.as_chunks::<8>().0;
-            let at = |k: usize| numbers.get(k).map_or(0.0, |b| f64::from_le_bytes(*b));
+            let numbers = message.as_chunks::<8>().0.iter();
+            let mut numbers = numbers.map(|bytes| f64::from_le_bytes(*bytes));
+            let mut next = || numbers.next().unwrap_or(0.0);
             let share = RankShare {
-                particles: at(0) as u64,
-                ghosts: at(1) as u64,
-                messages_per_step: at(2),
-                bytes_per_step: at(3),
-                moved: at(4) as u64,
-                memory_bytes: at(5),
+                particles: next() as u64,
+                ghosts: next() as u64,
+                messages_per_step: next(),
+                bytes_per_step: next(),
+                moved: next() as u64,
+                memory_bytes: next(),
             };
             let near = Nearby {
-                particles: at(6) as u64,
-                neighbours: at(7) as u64,
-                accompanied: at(8) as u64,
-                least: at(9),
-                distances: at(10),
+                particles: next() as u64,
+                neighbours: next() as u64,
+                accompanied: next() as u64,
+                least: next(),
+                distances: next(),
             };
             (share, near)
         };

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
 use std::sync::Arc;
-use std::time::Instant;
 
 use sph_core::StepError;
 use sph_neighbours::Nearby;
@@ -105,7 +104,7 @@ fn run_in<const D: usize>(
         capped: Status::Interrupted,
         max_wall: scene.run.max_wall,
     };
-    opened.drive(&mut running, &schedule, Instant::now(), observer)
+    opened.drive(&mut running, &schedule, observer)
 }
 
 /// A run that has not begun, of a scene that nothing is refused of.

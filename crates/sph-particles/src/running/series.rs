@@ -53,12 +53,6 @@ impl Extrema {
         momentum_scale: 0.0,
     };
 
-    /// All but the peaks, as checkpoints have them.
-    pub fn numbers(&self) -> [f64; 4] {
-        let [low, high] = self.density_range;
-        [low, high, self.energy_scale, self.momentum_scale]
-    }
-
     /// Measures a row; forces on walls have been [measured](crate::setup::measure_walls).
     pub fn row<const D: usize>(
         &mut self,

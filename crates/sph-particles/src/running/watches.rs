@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 
 use sph_core::StepError;
-use sph_scene::Scene;
+use sph_scene::{Scene, given};
 use sph_solver::step::WALL_MOTION;
 use sph_solver::{Flow, defaults};
 
@@ -36,12 +36,12 @@ const OWN: [&str; 9] = [
 ];
 
 /// The energies of a flow so far, J.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EnergyWatch {
     /// True if anything else than its own weight may give the flow energy, or hold some that its sums leave out.
     driven: bool,
     /// Sum and potential energy in the first row, largest kinetic, least potential energy, largest rise of the sum.
-    so_far: Option<[f64; 5]>,
+    pub so_far: Option<[f64; 5]>,
     /// Largest rise over the scale of the flow.
     share: f64,
     warned: bool,
@@ -63,20 +63,8 @@ impl EnergyWatch {
             || kinds.any(|kind| !OWN.contains(&kind));
         EnergyWatch {
             driven,
-            so_far: None,
-            share: 0.0,
-            warned: false,
+            ..EnergyWatch::default()
         }
-    }
-
-    /// Goes on with the state of the earlier part of a run.
-    pub fn recall(&mut self, so_far: Option<[u64; 5]>) {
-        self.so_far = so_far.map(|all| all.map(f64::from_bits));
-    }
-
-    /// State for a run that is resumed.
-    pub fn bits(&self) -> Option<[u64; 5]> {
-        self.so_far.map(|all| all.map(f64::to_bits))
     }
 
     /// Looks at the sums of a state at a time, s; gives a warning, once in a run. The sums over the remaining particles
@@ -218,19 +206,18 @@ impl DepartureWatch {
     }
 
     /// Lines of the summary: warnings, and advice.
-    pub fn remarks(&self) -> (Vec<String>, Vec<String>) {
+    pub fn remarks(&self) -> (Vec<String>, Vec<&'static str>) {
         let room = "a wall leaves the domain: give `numerics.domain` the room that it needs, or find the force that throws it \
                     (the probe `wall-force` measures the force of the fluid)";
         let shorter = "walls or bodies are thrown about within a step: smooth their courses and forces, or shorten the \
                        step with `run.safety`";
-        let of = |some: bool, what: &str| some.then(|| what.to_string());
         let warnings = self.over.iter().map(|n| out_of(n));
         let warnings = warnings.chain(self.leap.clone()).collect();
         let advice = [
-            of(!self.over.is_empty(), room),
-            of(self.leap.is_some(), shorter),
+            (room, !self.over.is_empty()),
+            (shorter, self.leap.is_some()),
         ];
-        (warnings, advice.into_iter().flatten().collect())
+        (warnings, given(advice))
     }
 
     /// The reason for the run's end, if a body has left the domain.
@@ -266,9 +253,7 @@ mod tests {
         };
         let watch = |driven| EnergyWatch {
             driven,
-            so_far: None,
-            share: 0.0,
-            warned: false,
+            ..EnergyWatch::default()
         };
         let mut flow = watch(false);
         assert_eq!(look(&mut flow, [0.0, 10.0], 0.0, 0.0), None);

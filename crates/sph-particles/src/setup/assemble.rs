@@ -12,7 +12,7 @@ use sph_probes::{Probe, Solution};
 use sph_rheology::Rheology;
 use sph_rheology::state::{Laws, Lift, Lifted, Reference};
 use sph_scene::Scene;
-use sph_solver::setup::{Choices, FlowInputs, Planning, StagePlan, joined, shown};
+use sph_solver::setup::{Choices, Planning, StagePlan, shown};
 use sph_solver::step::{
     NewParticleDefaults, Outlets, VariableGravity, accounts, term_accelerations,
 };
@@ -103,15 +103,10 @@ pub fn assembled<const D: usize>(
     )?;
     let saturated = planned.offer.saturated;
     let diffused = formulation.diffused();
-    let given = FlowInputs {
-        walls,
-        laws,
-        kinematic_viscosities,
-        swing,
-        outlets,
-        density: diffused.evolved,
-    };
-    let mut flow = joined(world, planned, given);
+    let mut flow = Flow::new(world, planned, diffused.evolved, laws, outlets);
+    flow.walls = walls;
+    flow.kinematic_viscosities = kinematic_viscosities;
+    flow.swing = swing;
     show(scene, &shown, &choices.probes, &mut flow)?;
     let columns = || parts.iter().flat_map(|(_, p)| p.columns());
     let beginning = Start {
@@ -151,7 +146,7 @@ pub fn assembled<const D: usize>(
 
 /// The plugins of a scene, with all probes ready.
 fn chosen<const D: usize>(scene: &Scene) -> Result<Choices<D>, SolverError> {
-    let mut choices = Choices::<D>::from_scene(scene).map_err(SolverError::Scene)?;
+    let mut choices = Choices::<D>::from_scene(scene)?;
     let errors = field_error::probes(scene, &mut choices.solutions);
     choices.probes.extend(errors);
     probe_setup::prepare(scene, &mut choices.probes)?;
@@ -236,10 +231,9 @@ fn filled_columns<const D: usize>(
             let why = format!("two plugins of this scene have a column `{name}`");
             return Err(SolverError::at("", why));
         }
-        free.add_any(column.field, Role::State);
+        free.add(column.field, Role::State);
     }
-    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free);
-    let outlets = outlets.map_err(SolverError::Scene)?;
+    let outlets = Outlets::from_scene(scene, (&placed.positions, &placed.body), &mut free)?;
     let count = free.len() as u32;
     free.get_mut(fields::POSITION)?
         .copy_from_slice(&placed.positions);

@@ -26,17 +26,13 @@ pub fn height<'a, const D: usize>(
     let Some(down) = gravity.try_normalize(0.0) else {
         return 0.0;
     };
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for region in regions {
+    let corners = regions.into_iter().flat_map(|region| {
         let (lower, upper) = region.base.bounds();
-        for n in 0..1 << D {
-            let corner = corner(&lower.into(), &upper.into(), n);
-            let along: f64 = (0..D).map(|k| down[k] * corner[k]).sum();
-            low = low.min(along);
-            high = high.max(along);
-        }
-    }
-    (high - low).max(0.0)
+        (0..1 << D).map(move |n| corner(&lower.into(), &upper.into(), n))
+    });
+    let along = corners.map(|corner| (0..D).map(|k| down[k] * corner[k]).sum::<f64>());
+    let [low, high] = bounds(along.map(|along| [along]));
+    (high[0] - low[0]).max(0.0)
 }
 
 /// Corner number `n` of the 2ᴰ corners of a box.

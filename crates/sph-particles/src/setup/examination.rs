@@ -9,6 +9,7 @@ use sph_solver::{Flow, PluginInForce, SolverError};
 
 use crate::setup::assemble::Assembled;
 use crate::setup::dimensions::assemble;
+use crate::setup::domain::box_around;
 use crate::setup::estimate::{bytes, short_steps};
 use crate::setup::probe_setup::rehearse;
 use crate::setup::reference_table::readable;
@@ -225,6 +226,10 @@ fn derived<const D: usize>(
         let own = velocity.enumerate().filter(|(i, _)| is_own(*i));
         own.map(|(_, u)| u.norm()).fold(0.0, f64::max)
     };
+    let extent = || {
+        let [low, high] = box_around(world.free.get(fields::POSITION).into_iter().flatten());
+        (high - low).max().max(0.0)
+    };
     let viscosities = flow.kinematic_viscosities.iter();
     let phases = scene.phase.iter().zip(flow.laws.iter().zip(viscosities));
     for (k, ((name, phase), (law, nu))) in phases.enumerate() {
@@ -235,7 +240,7 @@ fn derived<const D: usize>(
         if speed > 0.0 {
             say(format!("{name}: expected speed U"), speed, "m/s");
             say(format!("{name}: Mach number U/c₀"), speed / c0, "1");
-            let scale = if length > 0.0 { length } else { flow.extent() };
+            let scale = if length > 0.0 { length } else { extent() };
             let reynolds = speed * scale / nu;
             say(format!("{name}: Reynolds number UL/ν"), reynolds, "1");
             if fall > 0.0 {

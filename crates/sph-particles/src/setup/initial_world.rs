@@ -70,8 +70,7 @@ impl<const D: usize> InitialWorld<D> {
             world.walls = build(&mut **walls, &world)?;
             warnings.extend(walls.warnings());
         }
-        let placed = place(scene, &drawn.regions, choices.walls.as_deref());
-        let placed = placed.map_err(SolverError::Scene)?;
+        let placed = place(scene, &drawn.regions, choices.walls.as_deref())?;
         warnings.extend(placed.warnings.iter().cloned());
         if let Some(walls) = &choices.walls {
             let ends = walls.check_free_ends(&placed.positions);

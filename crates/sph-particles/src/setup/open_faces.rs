@@ -9,7 +9,7 @@ use std::sync::Arc;
 use sph_boundary::{Wall, WallCondition};
 use sph_contribution::Part;
 use sph_core::fields::RENORMALISATION;
-use sph_core::{SceneProblem, Shape, Vect};
+use sph_core::{SceneProblem, Vect};
 use sph_neighbours::{CellGrid, World};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
 use sph_rheology::state::{Laws, Lift};
@@ -135,8 +135,7 @@ pub fn join<const D: usize>(
     let entering = opened.entering();
     parts.push(("open-boundary", opened.boxed()));
     let columns = parts.iter().flat_map(|(_, part)| part.columns());
-    let known = columns.filter(|c| c.field.shape == Shape::Scalar);
-    let known: Vec<_> = known.map(|c| (c.field, c.within)).collect();
+    let known: Vec<_> = columns.map(|c| (c.field, c.within)).collect();
     let mut problems = Vec::new();
     for (wall, Entering { values, .. }) in &entering {
         for (name, value) in values {

@@ -5,6 +5,7 @@ use sph_boundary::Wall;
 use sph_core::place_cells::PlaceCells;
 use sph_core::{SceneProblem, Vect, comma_list};
 use sph_scene::{Body, BodyParticles, Offset, Region, Scene, disturb, fill};
+use sph_solver::SolverError;
 
 /// A particle nearer to a wall than this share of a spacing is left out.
 const TOO_NEAR: f64 = 0.4;
@@ -30,7 +31,7 @@ pub fn place<const D: usize>(
     scene: &Scene,
     regions: &[Region<D>],
     walls: Option<&dyn Wall<D>>,
-) -> Result<PlacedParticles<D>, Vec<SceneProblem>> {
+) -> Result<PlacedParticles<D>, SolverError> {
     let spacing = scene.numerics.spacing;
     let offset = match walls.map_or(0.0, |w| w.lattice_offset()) {
         x if x < 0.25 => Offset::None,
@@ -86,9 +87,7 @@ pub fn place<const D: usize>(
         placed.body.extend(kept.iter().map(|_| filled.body as u32));
         placed.positions.extend(kept);
     }
-    if !problems.is_empty() {
-        return Err(problems);
-    }
+    SolverError::refuse(problems)?;
     if let (Some(walls), Offset::Half, None) = (walls, offset, &scene.window) {
         let remarks = shares(scene, regions, walls, &numbers);
         placed.warnings.extend(remarks);

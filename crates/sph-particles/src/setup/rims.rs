@@ -8,6 +8,7 @@ use sph_neighbours::{Domain, WallSet};
 use crate::setup::box_around;
 
 /// Elements that hang together.
+#[derive(Clone)]
 pub(crate) struct Skin<const D: usize> {
     /// Index of the wall of its first element.
     pub wall: usize,
@@ -45,38 +46,40 @@ impl<const D: usize> Skins<D> {
             2 => ends(points, &elements.corners, &of_point, domain),
             _ => holes(points, &elements.corners, &of_point, domain),
         };
-        let mut boxes: Vec<[Vect<D>; 2]> = vec![box_around([]); count];
+        let [low, high]: [Vect<D>; 2] = box_around([]);
+        let none = Skin {
+            wall: usize::MAX,
+            low,
+            high,
+            holds: false,
+            open: false,
+        };
+        let mut all = vec![none; count];
         for (x, skin) in points.iter().zip(&of_point) {
             if let Some(skin) = skin {
-                let [low, high] = &mut boxes[*skin];
+                let Skin { low, high, .. } = &mut all[*skin];
                 (*low, *high) = (low.inf(x), high.sup(x));
             }
         }
         // Beside a rim the sum is that of the skin with a flat lid on it.
-        let mut about: Vec<Vect<D>> = boxes.iter().map(|[l, h]| 0.5 * (l + h)).collect();
+        let mut about: Vec<Vect<D>> = all.iter().map(|s| 0.5 * (s.low + s.high)).collect();
         for rim in rims.iter().filter(|r| r.skins[0] == r.skins[1]) {
             about[rim.skins[0]] = rim.centre(points);
         }
-        let mut outwards = vec![0.0; count];
-        let mut size = vec![0.0; count];
-        let mut open = vec![false; count];
-        let mut wall = vec![usize::MAX; count];
-        for (k, skin) in of_element.iter().enumerate() {
-            let arm = elements.centre[k] - about[*skin];
-            outwards[*skin] += arm.dot(&elements.normal[k]) * elements.measure[k];
-            size[*skin] += arm.norm() * elements.measure[k];
-            open[*skin] |= elements.open.get(k).is_some_and(|open| *open);
-            wall[*skin] = wall[*skin].min(elements.wall[k] as usize);
+        let mut sums = vec![[0.0; 2]; count];
+        for (k, skin) in of_element.into_iter().enumerate() {
+            let arm = elements.centre[k] - about[skin];
+            let [outwards, size] = &mut sums[skin];
+            *outwards += arm.dot(&elements.normal[k]) * elements.measure[k];
+            *size += arm.norm() * elements.measure[k];
+            all[skin].open |= elements.open.get(k).is_some_and(|open| *open);
+            all[skin].wall = all[skin].wall.min(elements.wall[k] as usize);
         }
-        let skin = |k: usize| Skin {
-            wall: wall[k],
-            low: boxes[k][0],
-            high: boxes[k][1],
-            holds: outwards[k] < -1e-6 * size[k],
-            open: open[k],
-        };
+        for (skin, [outwards, size]) in all.iter_mut().zip(sums) {
+            skin.holds = outwards < -1e-6 * size;
+        }
         Skins {
-            all: (0..count).map(skin).collect(),
+            all,
             rims,
             of_point,
         }

@@ -17,11 +17,8 @@ pub enum Share<const D: usize> {
     /// Columns, plugins and walls; places, and no state: for one that comes from elsewhere.
     Blank,
     /// Columns and plugins alone, without a particle, among walls that stand already: for a gathered state.
-    Columns(Option<Box<ExistingWalls<D>>>),
+    Columns(Option<Box<(Box<dyn Wall<D>>, WallSet<D>)>>),
 }
-
-/// Walls that stand already: the plugin, and the data of pair sums.
-pub type ExistingWalls<const D: usize> = (Box<dyn Wall<D>>, WallSet<D>);
 
 /// Refuses scenes that cannot be divided between ranks.
 pub fn refuse_the_indivisible<const D: usize>(

@@ -1,9 +1,8 @@
 //! The state of all particles before the first step.
 
-use sph_contribution::{Birth, Initial, OwnColumn};
+use sph_contribution::OwnColumn;
 use sph_core::{StepError, StepLimit, Vect, fields};
 use sph_multiphase::Formulation;
-use sph_neighbours::World;
 use sph_probes::Solution;
 use sph_rheology::state::BoundState;
 use sph_scene::{Body, Pressure, Region, Scene};
@@ -112,47 +111,12 @@ fn give_state<const D: usize>(
     let names = scene.body.iter();
     let names: Vec<(&str, &str)> = names.map(|(name, body)| (&*body.phase, &**name)).collect();
     for column in given.columns {
-        fill(world, column, |k| names[body(k)])?;
+        column.begin(&mut world.free, 0..identity.len(), |k| names[body(k)])?;
     }
     if let Some(walls) = &mut flow.walls {
         walls.geometry(world)?;
     }
     Ok(given.formulation.rebase(world)?)
-}
-
-/// Gives a column of a contribution its values at the start; `names` has the phase and the body of a particle.
-fn fill<'n, const D: usize>(
-    world: &mut World<D>,
-    column: &OwnColumn<D>,
-    names: impl Fn(usize) -> (&'n str, &'n str),
-) -> Result<(), SolverError> {
-    let free = &world.free;
-    let (position, velocity) = (free.get(fields::POSITION)?, free.get(fields::VELOCITY)?);
-    let (density, mass) = (free.get(fields::DENSITY)?, free.get(fields::MASS)?);
-    let birth = |k: usize| {
-        let (phase, body) = names(k);
-        Birth {
-            position: position[k],
-            velocity: velocity[k],
-            density: density[k],
-            mass: mass[k],
-            phase,
-            body,
-        }
-    };
-    let all = 0..position.len();
-    match &column.initial {
-        Initial::Zero => {}
-        Initial::Scalar(formula) => {
-            let values = all.map(|k| formula(&birth(k))).collect();
-            world.free.put(column.field.scalar(), values)?;
-        }
-        Initial::Vector(formula) => {
-            let values = all.map(|k| formula(&birth(k))).collect();
-            world.free.put(column.field.vector(), values)?;
-        }
-    }
-    Ok(())
 }
 
 /// Height of the free surface of a region along −gravity, m.

@@ -1,6 +1,5 @@
 //! A flow from a plan.
 
-use sph_boundary::Wall;
 use sph_core::{AnyField, Evolved, Role, fields};
 use sph_neighbours::World;
 use sph_rheology::state::Laws;
@@ -9,81 +8,66 @@ use crate::setup::planning::StagePlan;
 use crate::step::flow::Flow;
 use crate::step::hooks::Columns;
 use crate::step::outlets::Outlets;
-use crate::step::snapshot::Snapshot;
 use crate::step::stages::WALL_STATE;
-use crate::step::variable_gravity::VariableGravity;
 
-/// Parts of a flow besides its plan.
-pub struct FlowInputs<const D: usize> {
-    /// The walls, if there are any.
-    pub walls: Option<Box<dyn Wall<D>>>,
-    /// Equations of state, in the order of the phase numbers.
-    pub laws: Laws,
-    /// η/ρ₀ of every phase, m²/s.
-    pub kinematic_viscosities: Vec<f64>,
-    /// The change of gravity, if there is one.
-    pub swing: Option<VariableGravity<D>>,
-    /// The outlets.
-    pub outlets: Outlets,
-    /// The scalar with its rate that the formulation integrates.
-    pub density: Evolved,
-}
-
-/// A flow from a plan, with all columns that it touches.
-pub fn joined<const D: usize>(
-    mut world: World<D>,
-    planned: StagePlan<D>,
-    given: FlowInputs<D>,
-) -> Flow<D> {
-    world.transported = planned.transported;
-    let mut evolved = vec![given.density];
-    let offer = planned.offer;
-    evolved.extend(offer.transported);
-    let mut integrated: Vec<_> = evolved.iter().map(|e| e.value).collect();
-    for scalar in offer.advanced {
-        if !integrated.contains(&scalar) {
-            integrated.push(scalar);
+impl<const D: usize> Flow<D> {
+    /// A flow from a plan, with all columns that it touches, and without walls; `density` is the scalar with its rate that
+    /// the formulation integrates.
+    pub fn new(
+        mut world: World<D>,
+        planned: StagePlan<D>,
+        density: Evolved,
+        laws: Laws,
+        outlets: Outlets,
+    ) -> Self {
+        world.transported = planned.transported;
+        let mut evolved = vec![density];
+        let offer = planned.offer;
+        evolved.extend(offer.transported);
+        let mut integrated: Vec<_> = evolved.iter().map(|e| e.value).collect();
+        for scalar in offer.advanced {
+            if !integrated.contains(&scalar) {
+                integrated.push(scalar);
+            }
         }
+        let mut flow = Flow {
+            world,
+            stages: planned.stages,
+            pruned: planned.pruned,
+            terms: planned.terms,
+            kinds: planned.kinds,
+            remedies: planned.remedies,
+            limiters: offer.limiters,
+            inner_bounds: offer.inner_bounds,
+            walls: None,
+            loads: Vec::new(),
+            finer_loads: Vec::new(),
+            evolved,
+            integrated,
+            outside: offer.outside,
+            columns: Columns::default(),
+            hooks: planned.hooks,
+            fresh_state: offer.fresh_state,
+            gates: offer.gates,
+            stored: offer.stored,
+            on_walls: Vec::new(),
+            moved: true,
+            restored: false,
+            kept: Default::default(),
+            laws,
+            kinematic_viscosities: Vec::new(),
+            timings: Vec::new(),
+            swing: None,
+            outlets,
+            nursery: None,
+            observers: Vec::new(),
+            parts: None,
+        };
+        flow.ask_all();
+        flow.reset_timings();
+        allocate(&mut flow);
+        flow
     }
-    let mut flow = Flow {
-        world,
-        stages: planned.stages,
-        pruned: planned.pruned,
-        terms: planned.terms,
-        kinds: planned.kinds,
-        remedies: planned.remedies,
-        limiters: offer.limiters,
-        inner_bounds: offer.inner_bounds,
-        walls: given.walls,
-        loads: Vec::new(),
-        finer_loads: Vec::new(),
-        evolved,
-        integrated,
-        outside: offer.outside,
-        columns: Columns::default(),
-        hooks: planned.hooks,
-        fresh_state: offer.fresh_state,
-        gates: offer.gates,
-        stored: offer.stored,
-        on_walls: Vec::new(),
-        moved: true,
-        restored: false,
-        kept: Snapshot::default(),
-        kept_rates: Default::default(),
-        kept_image: Default::default(),
-        laws: given.laws,
-        kinematic_viscosities: given.kinematic_viscosities,
-        timings: Vec::new(),
-        swing: given.swing,
-        outlets: given.outlets,
-        nursery: None,
-        observers: Vec::new(),
-        parts: None,
-    };
-    flow.ask_all();
-    flow.reset_timings();
-    allocate(&mut flow);
-    flow
 }
 
 fn allocate<const D: usize>(flow: &mut Flow<D>) {

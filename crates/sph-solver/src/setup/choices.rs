@@ -3,7 +3,7 @@
 use sph_boundary::{Mover, MoverEntry, Wall, WallEntry};
 use sph_contribution::integrators::{Integrator, IntegratorEntry};
 use sph_contribution::{Part, PluginInForce, Plugins};
-use sph_core::{SceneProblem, Work, fields, kind_of};
+use sph_core::{Work, fields, kind_of};
 use sph_kernels::Kernel;
 use sph_multiphase::{Formulation, FormulationEntry};
 use sph_neighbours::KernelEntry;
@@ -12,6 +12,8 @@ use sph_probes::{Probe, ProbeEntry, Solution, SolutionEntry, needs_gradient};
 use sph_rheology::state::{EquationOfState, EquationOfStateEntry};
 use sph_rheology::{Rheology, RheologyEntry};
 use sph_scene::Scene;
+
+use crate::error::SolverError;
 
 /// Everything the scene's names stand for.
 pub struct Choices<const D: usize> {
@@ -78,7 +80,7 @@ impl<const D: usize> Choices<D> {
     ///
     /// # Errors
     /// All unknown names and wrong parameters at once.
-    pub fn from_scene(scene: &Scene) -> Result<Self, Vec<SceneProblem>> {
+    pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
         let mut plugins = plugins(scene);
         let walls = match scene.wall.is_empty() {
             true => None,
@@ -105,8 +107,8 @@ impl<const D: usize> Choices<D> {
         let equations_of_state = plugins.of_phases::<D, EquationOfStateEntry>();
         let solutions = plugins.named::<D, SolutionEntry>(solutions);
         let initial = plugins.named::<D, SolutionEntry>(initial);
-        let in_force = plugins.in_force()?;
-        let missing = |kind: &str| vec![SceneProblem::new(kind, "there is none in this binary")];
+        let in_force = plugins.in_force().map_err(SolverError::Scene)?;
+        let missing = |kind: &str| SolverError::at(kind, "there is none in this binary");
         Ok(Choices {
             kernel: kernel.ok_or_else(|| missing("kernel"))?,
             integrator: integrator.ok_or_else(|| missing("integrator"))?,

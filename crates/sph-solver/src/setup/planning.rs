@@ -13,9 +13,6 @@ use crate::error::SolverError;
 use crate::step::hooks::Hooks;
 use crate::step::stages::{InteractionSweep, Work};
 
-/// Pair terms shared by the sweep and measurements with them.
-pub type SharedTerms<const D: usize> = Arc<[Box<dyn Interaction<D>>]>;
-
 /// The works that run, those that do not, and the pair terms.
 pub struct StagePlan<const D: usize> {
     /// Stages in order.
@@ -23,7 +20,7 @@ pub struct StagePlan<const D: usize> {
     /// Names of the stages that are not needed.
     pub pruned: Vec<String>,
     /// The pair terms of the sweep.
-    pub terms: SharedTerms<D>,
+    pub terms: Arc<[Box<dyn Interaction<D>>]>,
     /// The plugin of every term, by the term's name.
     pub kinds: Vec<(String, &'static str)>,
     /// Work within a step, in order.
@@ -95,7 +92,7 @@ impl<const D: usize> Planning<'_, D> {
         kinds.append(&mut riding);
         all.terms.extend(all.riding.drain(..).map(|(_, term)| term));
         let transported = transported_by(&all.terms)?;
-        let terms: SharedTerms<D> = std::mem::take(&mut all.terms).into();
+        let terms: Arc<[_]> = std::mem::take(&mut all.terms).into();
         let changed = all.changes_density.then_some(self.diffused);
         let sweep = InteractionSweep::new(terms.clone(), changed, self.walls.is_some());
         stages.push(Work::Stage(Box::new(sweep)));

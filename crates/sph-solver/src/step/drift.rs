@@ -6,8 +6,7 @@ use rayon::prelude::*;
 use sph_contribution::StepPhase;
 use sph_core::{AnyField, Field, FieldError, StepError, Vector, fields};
 
-use crate::step::clocks::MOTION;
-use crate::step::flow::Flow;
+use crate::step::flow::{Flow, MOTION};
 use crate::step::hooks::{Boundary, writes_any};
 
 const BATCH: usize = 2048;

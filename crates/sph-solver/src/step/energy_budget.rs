@@ -79,7 +79,6 @@ pub struct EnergyBudget<const D: usize> {
     scalar: Vec<f64>,
     /// Densities as booked, kg/m³.
     density: Vec<f64>,
-    unused: Vec<Vect<D>>,
 }
 
 fn add_work<const D: usize>(
@@ -156,7 +155,6 @@ impl<const D: usize> EnergyBudget<D> {
             rates: Vec::new(),
             scalar: Vec::new(),
             density: Vec::new(),
-            unused: Vec::new(),
         })
     }
 
@@ -356,16 +354,14 @@ impl<const D: usize> EnergyBudget<D> {
 
     /// −D lnρ/Dt at the present positions if particles had these velocities, 1/s.
     fn dilatation_with(
-        &mut self,
+        &self,
         world: &mut World<D>,
         velocity: Vec<Vect<D>>,
     ) -> Result<Vec<f64>, StepError> {
         let n = velocity.len();
         let kept = std::mem::replace(world.free.get_mut(fields::VELOCITY)?, velocity);
-        self.unused.resize(n, Vect::zeros());
-        let mut sum = vec![0.0; n];
-        let (term, unused) = (&self.dilatation, &mut self.unused);
-        let done = interactions(world, term, unused, Some(&mut sum));
+        let (mut unused, mut sum) = (vec![Vect::zeros(); n], vec![0.0; n]);
+        let done = interactions(world, &self.dilatation, &mut unused, Some(&mut sum));
         *world.free.get_mut(fields::VELOCITY)? = kept;
         done.map(|()| sum)
     }

@@ -1,5 +1,12 @@
 //! A flow in motion: evaluation of all stages, forces, and its report.
 
+mod insertion;
+mod kept;
+mod snapshot;
+
+pub use insertion::NewParticleDefaults;
+pub use snapshot::Snapshot;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -16,15 +23,26 @@ use sph_neighbours::decomposition::Parts;
 use sph_neighbours::{Interaction, WallForce, World, wall_forces};
 use sph_rheology::state::Laws;
 
-use crate::step::clocks::{LISTS, LISTS_NAME, MOTION, MOTION_NAME, Timing};
-use crate::step::guard;
 use crate::step::hooks::{Boundary, Columns, Hooked, Hooks, ObservedFlow, Observer};
-use crate::step::kept_rates::{KeptRates, SavedParticles};
-use crate::step::new_particles::NewParticleDefaults;
 use crate::step::outlets::Outlets;
-use crate::step::snapshot::Snapshot;
 use crate::step::stages::{Work, run_and_update_ghosts};
 use crate::step::variable_gravity::VariableGravity;
+use kept::KeptState;
+
+/// Wall-clock time of one kind of work.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// Stage or service.
+    pub name: String,
+    /// Time spent so far.
+    pub spent: Duration,
+}
+
+const LISTS: usize = 0;
+/// Name of the time spent on neighbour lists.
+pub const LISTS_NAME: &str = "neighbour lists";
+/// Place of kicks and drifts among the timings; the stages follow, and then the work within a step.
+pub(crate) const MOTION: usize = 1;
 
 /// The assembled system of one scene.
 pub struct Flow<const D: usize> {
@@ -63,11 +81,7 @@ pub struct Flow<const D: usize> {
     pub moved: bool,
     /// True if the columns of state are those that the last evaluation before a checkpoint or a snapshot left.
     pub restored: bool,
-    pub(crate) kept: Snapshot<D>,
-    /// Accelerations and scalar rates of the kept state.
-    pub(crate) kept_rates: KeptRates<D>,
-    /// The same particles, where some of them may go to another rank.
-    pub(crate) kept_image: SavedParticles<D>,
+    pub(crate) kept: KeptState<D>,
     /// Equations of state, in the order of the phase numbers.
     pub laws: Laws,
     /// η/ρ₀ of every phase, m²/s.
@@ -80,7 +94,7 @@ pub struct Flow<const D: usize> {
     /// Time spent per stage and service since the assembly.
     pub timings: Vec<Timing>,
     /// The change of gravity, if there is one.
-    pub(crate) swing: Option<VariableGravity<D>>,
+    pub swing: Option<VariableGravity<D>>,
     /// The outlets.
     pub outlets: Outlets,
     /// Initial values of newborn particles, where some may come in.
@@ -245,18 +259,6 @@ impl<const D: usize> Flow<D> {
         Ok(())
     }
 
-    /// Largest extent of the particles along any axis, m.
-    pub fn extent(&self) -> f64 {
-        let Ok(position) = self.world.free.get(fields::POSITION) else {
-            return 0.0;
-        };
-        let along = |k: usize| {
-            let all = || position.iter().map(|x| x[k]);
-            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
-        };
-        (0..D).map(along).fold(0.0, f64::max)
-    }
-
     /// The terms that push particles, those outside of the sweep included.
     pub fn forces(&self) -> Vec<&dyn Interaction<D>> {
         let terms = self.terms.iter().map(|t| &**t);
@@ -323,18 +325,9 @@ impl<const D: usize> Flow<D> {
         state.map(|(name, ..)| name).collect()
     }
 
-    /// All columns of a state, as in every evaluation of a run.
-    ///
-    /// # Errors
-    /// The first particle that is out of bounds.
-    pub fn guard(&self, density_bounds: [f64; 2]) -> Result<(), StepError> {
-        guard::positions(&self.world)?;
-        guard::rates(&self.world, &self.laws, density_bounds)
-    }
-
     /// Starts all timings anew; after a change of the works.
     pub fn reset_timings(&mut self) {
-        let services = [LISTS_NAME, MOTION_NAME].map(String::from);
+        let services = [LISTS_NAME, "kick and drift"].map(String::from);
         let stages = self.stages.iter().map(|s| s.name());
         let hooks = self.hooks.all.iter().map(|h| h.hook.name());
         let names = services.into_iter().chain(stages).chain(hooks);

@@ -7,8 +7,7 @@ use sph_contribution::StepPhase;
 use sph_core::{StepError, fields};
 use sph_neighbours::{WallForce, loads, reactions};
 
-use crate::step::clocks::MOTION;
-use crate::step::flow::Flow;
+use crate::step::flow::{Flow, MOTION};
 use crate::step::hooks::Boundary;
 
 const BATCH: usize = 2048;

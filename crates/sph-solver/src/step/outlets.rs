@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use sph_core::{Removed, SceneProblem, Store, Vect};
 use sph_scene::{Outlet, Scene};
 
+use crate::error::SolverError;
+
 /// The outlets of a scene.
 pub struct Outlets {
     pub(crate) all: Vec<Outlet>,
@@ -35,7 +37,7 @@ impl Outlets {
         scene: &Scene,
         (places, bodies): (&[Vect<D>], &[u32]),
         free: &mut Store<D>,
-    ) -> Result<Self, Vec<SceneProblem>> {
+    ) -> Result<Self, SolverError> {
         let mut outlets = Outlets {
             all: scene.outlet.values().cloned().collect(),
             labels: Vec::new(),
@@ -59,10 +61,8 @@ impl Outlets {
         }
         free.removed = taken;
         outlets.named = outlets.labels.len();
-        match problems.is_empty() {
-            true => Ok(outlets),
-            false => Err(problems),
-        }
+        SolverError::refuse(problems)?;
+        Ok(outlets)
     }
 
     /// Adds the labels `NAME.PHASE` of an exit, and gives their counts, which begin.

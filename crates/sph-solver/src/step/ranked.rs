@@ -63,16 +63,6 @@ impl<const D: usize> Flow<D> {
         }
     }
 
-    /// Brings values kept within a step to the present particles of this rank.
-    pub(crate) fn kept_follows(&mut self) -> Result<(), StepError> {
-        let image = &mut self.kept_image;
-        if let Some(free) = image.follow(self.parts.as_ref(), &self.world)? {
-            self.kept.follow(free)?;
-            self.kept_rates.keep(free, &self.evolved)?;
-        }
-        Ok(())
-    }
-
     /// Limits become the smallest of all ranks.
     pub fn least_limits(&mut self, limits: &mut [StepLimit]) -> Result<(), StepError> {
         if let Some(parts) = &mut self.parts {

@@ -107,29 +107,9 @@ impl<const D: usize> Flow<D> {
                 self.refresh_lists_and_derived()?;
                 self.run_stages(|stage| !writes_any(stage, &state))
             }
-            Motion::Keep => {
-                let walls = self.walls.as_deref();
-                self.kept.save(&self.world, walls, &self.loads)?;
-                self.kept_rates.keep(&self.world.free, &self.evolved)?;
-                self.kept_image.keep(self.parts.as_ref(), &self.world);
-                Ok(())
-            }
-            Motion::Recall(what) => {
-                let stages = self.columns.stages.iter();
-                let stages = stages.filter(|_| what == Recall::State);
-                let writes = stages.flat_map(|a| &a.writes);
-                let by_stages: Vec<_> = writes.map(|f| f.name).collect();
-                self.kept_follows()?;
-                let named = (&self.integrated[..], &by_stages[..]);
-                let walls = (self.walls.as_deref_mut(), &mut self.loads);
-                Ok(self.kept.recall(&mut self.world, walls, what, named)?)
-            }
-            Motion::AverageRates => {
-                self.kept_follows()?;
-                let free = &mut self.world.free;
-                let (places, rates) = (self.kept.places(free)?, &self.kept_rates);
-                Ok(rates.average(free, &self.evolved, places.as_deref())?)
-            }
+            Motion::Keep => Ok(self.keep_within_step()?),
+            Motion::Recall(what) => self.recall_kept(what),
+            Motion::AverageRates => self.average_with_kept(),
             Motion::Kick(dt) => self.kick_over(dt),
             Motion::Drift(dt) => self.drift_over(dt),
         }

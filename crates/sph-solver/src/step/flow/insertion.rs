@@ -1,10 +1,36 @@
 //! Particles that come into the flow.
 
-use sph_contribution::{Birth, Initial, Newborn};
+use std::sync::Arc;
+
+use sph_contribution::{Newborn, OwnColumn};
 use sph_core::{FieldError, StepError, fields};
 use sph_multiphase::Formulation;
+use sph_scene::Scene;
 
-use crate::step::flow::Flow;
+use super::Flow;
+
+/// Initial values of newborn particles.
+pub struct NewParticleDefaults<const D: usize> {
+    formulation: Arc<dyn Formulation<D>>,
+    /// Columns that contributions bring along.
+    columns: Vec<OwnColumn<D>>,
+    phases: Vec<String>,
+}
+
+impl<const D: usize> NewParticleDefaults<D> {
+    /// That of a scene.
+    pub fn new(
+        scene: &Scene,
+        formulation: Arc<dyn Formulation<D>>,
+        columns: Vec<OwnColumn<D>>,
+    ) -> Self {
+        NewParticleDefaults {
+            formulation,
+            columns,
+            phases: scene.phase.keys().cloned().collect(),
+        }
+    }
+}
 
 impl<const D: usize> Flow<D> {
     /// Lets in particles born at the end of a step of `dt` seconds.
@@ -94,28 +120,18 @@ impl<const D: usize> Flow<D> {
                 free.get_mut(fields::PHASE)?[slot] = newborn.phase;
             }
         }
+        let first = slots.start;
+        let names = |k: usize| {
+            let newborn = &all[k - first];
+            let phase = &nursery.phases[newborn.phase as usize];
+            (phase.as_str(), &*newborn.body)
+        };
         for column in &nursery.columns {
+            column.begin(free, slots.clone(), names)?;
             for (slot, newborn) in slots.clone().zip(all) {
-                let birth = Birth {
-                    position: newborn.position,
-                    velocity: newborn.velocity,
-                    density: newborn.density,
-                    mass: newborn.mass,
-                    phase: &nursery.phases[newborn.phase as usize],
-                    body: &newborn.body,
-                };
-                match &column.initial {
-                    Initial::Zero => {}
-                    Initial::Scalar(formula) => {
-                        free.get_mut(column.field.scalar())?[slot] = formula(&birth);
-                    }
-                    Initial::Vector(formula) => {
-                        free.get_mut(column.field.vector())?[slot] = formula(&birth);
-                    }
-                }
                 let mut given = newborn.values.iter();
                 if let Some((_, value)) = given.find(|(name, _)| name == column.field.name) {
-                    free.get_mut(column.field.scalar())?[slot] = *value;
+                    free.get_mut(column.field)?[slot] = *value;
                 }
             }
         }

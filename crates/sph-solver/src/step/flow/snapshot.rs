@@ -1,13 +1,10 @@
 //! The state before a step, to fall back on when the step fails.
 
-use sph_boundary::{Wall, WallStates};
-use sph_core::{Field, FieldError, Recall, Scalar, Slots, Store, Vect, fields};
-use sph_neighbours::{WallForce, World};
+use sph_boundary::WallStates;
+use sph_core::{FieldError, Recall, Slots, StepError, Store, Vect, fields};
+use sph_neighbours::WallForce;
 
-pub(crate) type MovedWalls<'a, const D: usize> = (
-    Option<&'a mut (dyn Wall<D> + 'static)>,
-    &'a mut Vec<WallForce<D>>,
-);
+use super::Flow;
 
 /// All columns that carry history, in the order the particles had, and the clock.
 #[derive(Default)]
@@ -22,21 +19,16 @@ pub struct Snapshot<const D: usize> {
 }
 
 impl<const D: usize> Snapshot<D> {
-    pub(crate) fn save(
-        &mut self,
-        world: &World<D>,
-        walls: Option<&dyn Wall<D>>,
-        loads: &[WallForce<D>],
-    ) -> Result<(), FieldError> {
-        world.free.save_state(&mut self.columns)?;
-        self.time = world.time;
-        self.dt = world.dt;
-        if let Some(walls) = walls {
+    /// Copies the state; reuses its buffers.
+    pub fn take(&mut self, flow: &Flow<D>) -> Result<(), FieldError> {
+        flow.world.free.save_state(&mut self.columns)?;
+        self.time = flow.world.time;
+        self.dt = flow.world.dt;
+        if let Some(walls) = &flow.walls {
             self.walls = walls.states();
             // Lists are built anew where a step is taken back.
             self.walls.listed = None;
-            self.loads.clear();
-            self.loads.extend_from_slice(loads);
+            self.loads.clone_from(&flow.loads);
         }
         Ok(())
     }
@@ -67,51 +59,48 @@ impl<const D: usize> Snapshot<D> {
     }
 
     /// Puts part of the state back, for any present order of the particles.
-    /// Of the columns those that are `integrated` are meant in any case. State that stages write (a shift, the start of
+    /// Of the columns those that are integrated are meant in any case. State that stages write (a shift, the start of
     /// a solve) is left as the last evaluation made it: only motion is undone.
-    pub(crate) fn recall(
-        &self,
-        world: &mut World<D>,
-        walls: MovedWalls<'_, D>,
-        what: Recall,
-        (integrated, by_stages): (&[Field<Scalar>], &[&str]),
-    ) -> Result<(), FieldError> {
-        let places = self.places(&world.free)?;
+    pub(crate) fn recall(&self, flow: &mut Flow<D>, what: Recall) -> Result<(), FieldError> {
+        let places = self.places(&flow.world.free)?;
+        let by_stages = |name: &str| {
+            let mut writes = flow.columns.stages.iter().flat_map(|a| &a.writes);
+            writes.any(|f| f.name == name)
+        };
         let wanted = |name: &str| {
-            integrated.iter().any(|f| f.name == name)
+            flow.integrated.iter().any(|f| f.name == name)
                 || match what {
                     Recall::Scalars => false,
                     Recall::Motion => name == fields::VELOCITY.name,
-                    Recall::State => name != fields::IDENTITY.name && !by_stages.contains(&name),
+                    Recall::State => name != fields::IDENTITY.name && !by_stages(name),
                 }
         };
-        let free = &mut world.free;
+        let free = &mut flow.world.free;
         free.put_state(&self.columns, places.as_deref(), wanted)?;
         if what == Recall::State {
-            world.time = self.time;
-            self.walls_back(world, walls);
+            flow.world.time = self.time;
+            self.put_walls_back(flow);
         }
         Ok(())
     }
 
-    fn walls_back(&self, world: &mut World<D>, (walls, loads): MovedWalls<'_, D>) {
-        if let Some(walls) = walls {
+    /// Puts the state back. If the particles were sorted meanwhile, they return to their
+    /// order; those that left since come back, those that came in are gone.
+    pub fn restore(&self, flow: &mut Flow<D>) -> Result<(), StepError> {
+        flow.world.free.restore_state(&self.columns)?;
+        flow.world.time = self.time;
+        flow.world.dt = self.dt;
+        self.put_walls_back(flow);
+        // The results of the evaluation of this state are among it.
+        flow.restored = true;
+        flow.rebuild_lists()
+    }
+
+    fn put_walls_back(&self, flow: &mut Flow<D>) {
+        if let Some(walls) = &mut flow.walls {
             // The walls accepted this time before, so they accept it again.
-            let _ = walls.put_back(&mut world.walls, &self.walls, self.time);
-            loads.clone_from(&self.loads);
+            let _ = walls.put_back(&mut flow.world.walls, &self.walls, self.time);
+            flow.loads.clone_from(&self.loads);
         }
-    }
-
-    /// Puts all of the state and the clock back, but builds no lists.
-    pub(crate) fn put_back(
-        &self,
-        world: &mut World<D>,
-        walls: MovedWalls<'_, D>,
-    ) -> Result<(), FieldError> {
-        world.free.restore_state(&self.columns)?;
-        world.time = self.time;
-        world.dt = self.dt;
-        self.walls_back(world, walls);
-        Ok(())
     }
 }

@@ -1,13 +1,71 @@
-//! The rates that an integrator keeps within a step.
+//! The state and the rates that an integrator keeps within a step.
 
 use rayon::prelude::*;
-use sph_core::{Evolved, FieldError, Store, Vect, fields};
-use sph_neighbours::World;
-use sph_neighbours::decomposition::{PartError, Parts};
+use sph_core::{Evolved, FieldError, Recall, StepError, Store, Vect, fields};
+
+use super::{Flow, Snapshot};
+
+#[derive(Default)]
+pub(crate) struct KeptState<const D: usize> {
+    state: Snapshot<D>,
+    rates: KeptRates<D>,
+    /// All particles of a rank, and the number of lists built until then; nothing where one process has all.
+    image: Option<(Store<D>, u64)>,
+}
+
+impl<const D: usize> Flow<D> {
+    pub(crate) fn keep_within_step(&mut self) -> Result<(), FieldError> {
+        let mut kept = std::mem::take(&mut self.kept);
+        let world = &self.world;
+        let done = kept.state.take(self);
+        let done = done.and_then(|()| kept.rates.keep(&world.free, &self.evolved));
+        if self.parts.is_some() {
+            kept.image = Some((world.free.copied(), world.lists.builds));
+        }
+        self.kept = kept;
+        done
+    }
+
+    pub(crate) fn recall_kept(&mut self, what: Recall) -> Result<(), StepError> {
+        self.kept_follows()?;
+        let kept = std::mem::take(&mut self.kept);
+        let done = kept.state.recall(self, what);
+        self.kept = kept;
+        Ok(done?)
+    }
+
+    /// Rates become the mean of the present and the kept ones.
+    pub(crate) fn average_with_kept(&mut self) -> Result<(), StepError> {
+        self.kept_follows()?;
+        let (free, kept) = (&mut self.world.free, &self.kept);
+        let places = kept.state.places(free)?;
+        Ok(kept.rates.average(free, &self.evolved, places.as_deref())?)
+    }
+
+    /// Brings the kept values to the present particles of this rank, if some have gone and come since.
+    fn kept_follows(&mut self) -> Result<(), StepError> {
+        let (free, now) = (&self.world.free, self.world.lists.builds);
+        let KeptState {
+            state,
+            rates,
+            image,
+        } = &mut self.kept;
+        // All ranks build their lists together.
+        if let (Some(parts), Some((image, builds))) = (&self.parts, image)
+            && *builds != now
+        {
+            parts.follow(image, free)?;
+            *builds = now;
+            state.follow(image)?;
+            rates.keep(image, &self.evolved)?;
+        }
+        Ok(())
+    }
+}
 
 /// Rates of all particles, in the order of the kept state.
 #[derive(Default)]
-pub struct KeptRates<const D: usize> {
+struct KeptRates<const D: usize> {
     acceleration: Vec<Vect<D>>,
     /// One column per evolved scalar.
     scalars: Vec<Vec<f64>>,
@@ -15,7 +73,7 @@ pub struct KeptRates<const D: usize> {
 
 impl<const D: usize> KeptRates<D> {
     /// Copies the present rates, in the order of the kept state.
-    pub(crate) fn keep(&mut self, free: &Store<D>, evolved: &[Evolved]) -> Result<(), FieldError> {
+    fn keep(&mut self, free: &Store<D>, evolved: &[Evolved]) -> Result<(), FieldError> {
         free.get(fields::ACCELERATION)?
             .clone_into(&mut self.acceleration);
         self.scalars.resize_with(evolved.len(), Vec::new);
@@ -25,8 +83,8 @@ impl<const D: usize> KeptRates<D> {
         Ok(())
     }
 
-    /// Rates become the mean of the present and the kept ones; `places` are those of the particles in the kept state.
-    pub(crate) fn average(
+    /// `places` are those of the particles in the kept state.
+    fn average(
         &self,
         free: &mut Store<D>,
         evolved: &[Evolved],
@@ -42,42 +100,6 @@ impl<const D: usize> KeptRates<D> {
             rates.for_each(|(i, r)| *r = (*r + column[at(i)]) * 0.5);
         }
         Ok(())
-    }
-}
-
-/// All particles of a rank as they were when the state was kept; nothing where one process has all.
-#[derive(Default)]
-pub struct SavedParticles<const D: usize> {
-    free: Option<Store<D>>,
-    /// Lists built until then.
-    builds: u64,
-}
-
-impl<const D: usize> SavedParticles<D> {
-    pub(crate) fn keep(&mut self, parts: Option<&Parts<D>>, world: &World<D>) {
-        if parts.is_some() {
-            self.free = Some(world.free.copied());
-            self.builds = world.lists.builds;
-        }
-    }
-
-    /// The copies in the order of the particles that this rank has now, if some have gone and come since.
-    pub(crate) fn follow(
-        &mut self,
-        parts: Option<&Parts<D>>,
-        world: &World<D>,
-    ) -> Result<Option<&Store<D>>, PartError> {
-        let (Some(parts), Some(free)) = (parts, &mut self.free) else {
-            return Ok(None);
-        };
-        // All ranks build their lists together.
-        let builds = world.lists.builds;
-        if builds == self.builds {
-            return Ok(None);
-        }
-        parts.follow(free, &world.free)?;
-        self.builds = builds;
-        Ok(Some(free))
     }
 }
 
