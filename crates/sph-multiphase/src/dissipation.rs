@@ -12,7 +12,7 @@ use sph_neighbours::{
 
 contribution_kind!(
     /// A dissipation that a scene may name.
-    pub DissipationEntry, "dissipation", One, "dissipation of noise between particles that approach each other",
+    pub DissipationEntry, "dissipation", One, "damping of noise between particles that approach each other",
     .works(Work::Damping)
 );
 

@@ -51,7 +51,7 @@ fn every_page_of_docs_is_in_the_table_of_contents_once() {
     let summary = std::fs::read_to_string(docs.join("SUMMARY.md")).expect("a table of contents");
     let inner = |folder: &str| std::fs::read_dir(docs.join(folder)).expect("a folder");
     let mut pages = 0;
-    for folder in ["", "tutorials/", "rheology/", "validation/", "appendix/"] {
+    for folder in ["", "tutorials/", "rheology/", "validation/"] {
         for entry in inner(folder) {
             let name = entry
                 .expect("an entry")
