@@ -1,7 +1,16 @@
 //! Several fields at a time.
 
 use crate::field::AnyField;
-use crate::{Field, FieldError, Kind, Store};
+use crate::{Field, FieldError, Kind};
+
+/// A holder of columns.
+pub trait Columns<const D: usize> {
+    /// The entries of a column.
+    ///
+    /// # Errors
+    /// If the column was not declared, or it has another type; as everywhere below.
+    fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError>;
+}
 
 /// A field, a tuple of lists of fields, or a list that may be left out.
 pub trait FieldList {
@@ -10,10 +19,10 @@ pub trait FieldList {
     /// Calls `each` for every field, in order.
     fn for_each(self, each: impl FnMut(AnyField));
     /// Looks their columns up, in the same order.
-    ///
-    /// # Errors
-    /// If a column was not declared, or it has another type.
-    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError>;
+    fn items<const D: usize>(
+        self,
+        columns: &impl Columns<D>,
+    ) -> Result<Self::Items<'_, D>, FieldError>;
 }
 
 impl<K: Kind> FieldList for Field<K> {
@@ -21,8 +30,11 @@ impl<K: Kind> FieldList for Field<K> {
     fn for_each(self, mut each: impl FnMut(AnyField)) {
         each(self.any());
     }
-    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError> {
-        store.get(self)
+    fn items<const D: usize>(
+        self,
+        columns: &impl Columns<D>,
+    ) -> Result<Self::Items<'_, D>, FieldError> {
+        columns.column(self)
     }
 }
 
@@ -33,8 +45,11 @@ impl<F: FieldList> FieldList for Option<F> {
             fields.for_each(each);
         }
     }
-    fn items<const D: usize>(self, store: &Store<D>) -> Result<Self::Items<'_, D>, FieldError> {
-        self.map(|fields| fields.items(store)).transpose()
+    fn items<const D: usize>(
+        self,
+        columns: &impl Columns<D>,
+    ) -> Result<Self::Items<'_, D>, FieldError> {
+        self.map(|fields| fields.items(columns)).transpose()
     }
 }
 
@@ -48,10 +63,10 @@ macro_rules! tuple {
             }
             fn items<const D: usize>(
                 self,
-                store: &Store<D>,
+                columns: &impl Columns<D>,
             ) -> Result<Self::Items<'_, D>, FieldError> {
                 let ($($field),+) = self;
-                Ok(($($field.items(store)?),+))
+                Ok(($($field.items(columns)?),+))
             }
         }
     };

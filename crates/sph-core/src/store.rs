@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use crate::field::{AnyField, Column};
+use crate::field_list::Columns;
 use crate::watch::Watch;
 use crate::{Access, Field, FieldError, FieldList, Kind, StepError, Vect};
 
@@ -85,6 +86,12 @@ pub enum Plain<'a> {
     Real(Cow<'a, [f64]>),
     /// Unsigned integers.
     Index(&'a [u32]),
+}
+
+impl<const D: usize> Columns<D> for Store<D> {
+    fn column<K: Kind>(&self, field: Field<K>) -> Result<&[K::Item<D>], FieldError> {
+        self.get(field)
+    }
 }
 
 impl<const D: usize> Store<D> {

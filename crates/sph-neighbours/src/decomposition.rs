@@ -21,9 +21,9 @@ mod parts;
 mod threads;
 mod transport;
 
-pub use bisect::{DecompositionError, bisect};
+pub use bisect::bisect;
 pub use cuts::Cuts;
-pub use error::PartError;
+pub use error::{DecompositionError, PartError};
 pub use ghosts::ghosts_by_owner;
 pub use link::{Link, OWNER};
 pub use parts::{Parts, Traffic};

@@ -174,6 +174,17 @@ fn scenes_lists_every_shipped_scene_under_its_theme_with_its_time() {
     assert!(lines.starts_with("Others\n  own  "), "{lines}");
 }
 
+/// Water in a tank that a file draws.
+const DRAWN: &str = r#"
+title = "Drawn"
+dimension = 2
+run.end = 0.1
+numerics = { spacing = "5 cm", gravity = [0.0, -9.81] }
+wall.tank.file = "tank.csv"
+phase.water = { density = 1000.0, rheology.newtonian.viscosity = 1e-3 }
+body.water = { phase = "water", box = [[0.0, 0.0], [0.5, 0.5]] }
+"#;
+
 #[test]
 fn a_new_scene_is_good_and_never_overwrites() {
     let bench = bench!();
@@ -184,6 +195,12 @@ fn a_new_scene_is_good_and_never_overwrites() {
     // A copy brings the data that it is compared with.
     bench.done("new copy --from dam-break-koshizuka");
     bench.done("check copy.toml");
+    // So does a copy of a file, with its drawings.
+    std::fs::create_dir(bench.path("far")).expect("a folder");
+    bench.write("far/tank.csv", "x,y\n0,1\n0,0\n1,0\n1,1\n");
+    bench.write("far/drawn.toml", DRAWN);
+    bench.done("new near --from far/drawn.toml");
+    bench.done("check near.toml");
     assert_eq!(bench.call("new other --from nosuch").code, Some(2));
     assert!(!bench.path("other.toml").exists());
 }

@@ -71,7 +71,7 @@ fn write(path: &Path, text: &str) -> Result<(), Trouble> {
     })?)
 }
 
-/// Brings the data files along that the new scene is compared with.
+/// Brings the files along that the new scene names.
 fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
     let Some(origin) = origin else {
         let data = shipped::data_of(Some(&[text]));
@@ -80,25 +80,15 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         })?);
     };
     let name = origin.join("scene.toml").display().to_string();
-    let loaded = match scene_file::read(Source::new(text, &name, &[])) {
-        Ok(AnyScene::Particles(loaded)) => loaded,
-        Ok(AnyScene::Grains(loaded)) => {
-            let files = loaded.files();
-            let placed = files.iter().filter_map(|(key, file)| {
-                Some((file.as_str(), loaded.source.resolve(key, file).ok()?))
-            });
-            return copied(placed, folder);
-        }
+    let (source, files) = match scene_file::read(Source::new(text, &name, &[])) {
+        Ok(AnyScene::Particles(loaded)) => (loaded.source.clone(), loaded.files()),
+        Ok(AnyScene::Grains(loaded)) => (loaded.source.clone(), loaded.files()),
         Err(_) => return Ok(Vec::new()),
     };
-    let scene = &loaded.scene;
-    let references = scene.reference.values();
-    let references = references.filter_map(|r| Some((r.file.as_deref()?, r.path.clone()?)));
-    let probes = scene.probe_files.iter().filter_map(|(name, path)| {
-        let table = scene.probe.get(name).or_else(|| scene.gauge.get(name))?;
-        Some((table.get("file")?.as_str()?, path.clone()))
-    });
-    copied(references.chain(probes), folder)
+    let placed = files
+        .iter()
+        .filter_map(|(key, file)| Some((file.as_str(), source.resolve(key, file).ok()?)));
+    copied(placed, folder)
 }
 
 /// Copies files, by the names that the scene has for them, into a folder; returns the new ones.

@@ -3,14 +3,9 @@
 use std::ops::Range;
 
 use sph_core::Vect;
-use thiserror::Error;
 
+use crate::decomposition::DecompositionError;
 use crate::decomposition::ghosts::around;
-
-/// A division of particles that is impossible.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{0}")]
-pub struct DecompositionError(pub String);
 
 /// Refuses no rank, and more ranks than particles.
 pub(crate) fn check_ranks(ranks: usize, particles: usize) -> Result<(), DecompositionError> {

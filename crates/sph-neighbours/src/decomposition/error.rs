@@ -3,7 +3,12 @@
 use sph_core::{FieldError, StepError};
 use thiserror::Error;
 
-use crate::decomposition::{DecompositionError, TransportError};
+use crate::decomposition::TransportError;
+
+/// A division of particles that is impossible.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct DecompositionError(pub String);
 
 /// Errors that keep a rank from its part.
 #[derive(Clone, Debug, Error, PartialEq)]
