@@ -146,13 +146,18 @@ impl<'a, const D: usize> Source<'a, D> {
             sum.acceleration += state.acceleration * *weight;
             (least, most) = (least.min(state.density), most.max(state.density));
         }
-        sum.density = sum.density.clamp(least / SPRAY, SPRAY * most);
+        let beyond = if most < SMOOTH * least {
+            most - least
+        } else {
+            0.0
+        };
+        sum.density = sum.density.clamp(least - beyond, most + beyond);
         Some(sum)
     }
 }
 
-/// Factor by which a fitted density is at most out of the range of the particles' own: in spray densities of 0.4 lie beside
-/// 1, and a polynomial through them reaches 0.
-const SPRAY: f64 = 2.0;
+/// Ratio of the densities around a place below which a fitted density may be out of their range, by its width. In spray
+/// densities of 0.01 lie beside 1, and a polynomial through them reaches 0.
+const SMOOTH: f64 = 1.1;
 /// Radius of a fit over the spacing of the particles.
 pub(crate) const REACH: f64 = 3.0;
