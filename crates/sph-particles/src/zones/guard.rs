@@ -112,7 +112,8 @@ impl<const D: usize> Guard<D> {
         let around = self.now.since(&self.before, &self.earlier, world);
         let source = Source::new(&around, &world.domain, self.spacing);
         let position = world.free.get(fields::POSITION)?;
-        Ok(source.all(position, wanted))
+        let frame = self.frame.at(zone);
+        Ok(source.all(position, wanted, |x| !frame.holds(x, 0.0)))
     }
 
     /// At the end of the time that it knows: lets finer particles in where those around come into the band, and takes them

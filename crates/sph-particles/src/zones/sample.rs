@@ -113,15 +113,33 @@ impl<'a, const D: usize> Source<'a, D> {
         Source { sample, near }
     }
 
-    /// The states at those of some places that are `wanted`, where enough particles are near.
-    pub fn all(&self, places: &[Vect<D>], wanted: impl Fn(&Vect<D>) -> bool + Sync) -> States<D> {
+    /// The states at those of some places that are `wanted`, where enough particles are near; where they are too few that
+    /// of the nearest one, if the place is `led` in any case.
+    pub fn all(
+        &self,
+        places: &[Vect<D>],
+        wanted: impl Fn(&Vect<D>) -> bool + Sync,
+        led: impl Fn(&Vect<D>) -> bool + Sync,
+    ) -> States<D> {
         let memory = || (Vec::new(), Fit::default());
         let at = |(near, fit): &mut (Vec<u32>, Fit<D>), (k, x): (usize, &Vect<D>)| {
-            let state = wanted(x).then(|| self.at(x, near, fit)).flatten()?;
+            let fitted = wanted(x).then(|| self.at(x, near, fit))?;
+            let state = fitted.or_else(|| led(x).then(|| self.nearest(x)).flatten())?;
             Some((k, state))
         };
         let all = places.par_iter().enumerate().with_min_len(256);
         all.map_init(memory, at).flatten_iter().collect()
+    }
+
+    /// The state of the nearest particle within the radius of a fit.
+    fn nearest(&self, x: &Vect<D>) -> Option<State<D>> {
+        let mut nearest = None;
+        self.near.visit(x, |k, _, q| {
+            if nearest.is_none_or(|(_, least)| q < least) {
+                nearest = Some((k, q));
+            }
+        });
+        nearest.map(|(k, _)| self.sample.states[k])
     }
 
     /// The state at a place by a fit; none where too few particles are near.

@@ -92,7 +92,7 @@ impl<const D: usize> Level<D> {
         let sample = Sample::of_flow(own, |x| frame.holds(x, 0.0))?;
         let source = Source::new(&sample, &own.world.domain, own.world.spacing);
         let position = around.world.free.get(fields::POSITION)?;
-        Ok(source.all(position, |x| frame.in_core(x)))
+        Ok(source.all(position, |x| frame.in_core(x), |_| false))
     }
 
     /// Keeps its state, and that of its zones, for a flow `depth` levels below the coarsest.
