@@ -40,13 +40,7 @@ pub(crate) fn stress_correction<const D: usize>(
             })
         };
         let free = FreePositions { volume };
-        Ok(walk_in_lanes(
-            world,
-            &free,
-            |_| true,
-            corrections,
-            correction,
-        )?)
+        walk_in_lanes(world, &free, |_| true, corrections, correction)
     })
 }
 
