@@ -16,7 +16,7 @@ pub const KERNEL_SUM: Field<Scalar> = Field::new("kernel_sum", "1", "Σ θ V w /
 pub trait DivergenceWeight: Copy + Send + Sync + 'static {
     /// Name in plans.
     const NAME: &'static str;
-    /// True if D is divided by the [kernel sum](KERNEL_SUM).
+    /// True if D is divided by the kernel sum.
     const FILLED: bool = false;
     /// W from the volumes and densities here and there.
     fn weight<L: Lane>(self, volume: L, density: L, there: L, there_density: L) -> L;
