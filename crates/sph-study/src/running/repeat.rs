@@ -70,6 +70,8 @@ pub trait Watcher: Sync {
     }
 }
 
+impl Watcher for () {}
+
 pub(crate) struct Job<'a> {
     pub study: &'a Study,
     pub variant: &'a Variant,
