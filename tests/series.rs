@@ -44,7 +44,7 @@ impl Series {
         *self.column(name).last().expect("a row")
     }
 
-    /// What a column has changed by in the end.
+    /// The change of a column from the first row to the last.
     #[track_caller]
     pub fn change(&self, name: &str) -> f64 {
         self.last(name) - self.column(name)[0]

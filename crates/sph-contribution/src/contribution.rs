@@ -104,7 +104,7 @@ impl Refusal {
         }
     }
 
-    /// Of a key that names a thing which is none of the known ones; it names the nearest of them.
+    /// Of a key with an unknown name; the message has the nearest known name.
     pub fn unknown(
         kind: &'static str,
         key: impl Into<String>,

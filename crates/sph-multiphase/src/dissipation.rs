@@ -7,7 +7,8 @@ use nalgebra::SMatrix;
 use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{Vect, Work, fields, plugin};
 use sph_neighbours::{
-    Lane, LanePair, Neighbourhood, Particles, Rates, add_scaled, dot, minus, pair_sum, pair_term,
+    Lane, LanePair, Neighbourhood, Particles, Rates, add_scaled, beyond_linear, dot, minus,
+    pair_sum, pair_term,
 };
 
 contribution_kind!(
@@ -102,13 +103,12 @@ impl<const D: usize> BoundDissipation<'_, D> {
     fn own<L: Lane>(&self, all: Particles) -> Own<D, L> {
         let volume = all.numbers::<L>(self.volume);
         let [sound] = all.each(|i| [self.sound(i)]);
-        let row = |k: usize| match self.gradient {
-            Some(gradient) => all.each(|i| std::array::from_fn(|l| gradient[i][(k, l)])),
-            None => [L::splat(0.0); D],
-        };
         Own {
             velocity: all.vectors(self.velocity),
-            gradient: std::array::from_fn(row),
+            gradient: match self.gradient {
+                Some(gradient) => all.matrices(gradient),
+                None => [[L::splat(0.0); D]; D],
+            },
             sound,
             impedance: all.numbers::<L>(self.density) * sound,
             volume2: volume * volume,
@@ -117,13 +117,14 @@ impl<const D: usize> BoundDissipation<'_, D> {
     fn pair<L: Lane>(&self, own: &Own<D, L>, j: usize, pair: &LanePair<D, L>, sum: &mut [L; D]) {
         let sound = self.sound(j);
         let impedance = L::splat(self.density[j] * sound);
-        let mut closing = -dot(&minus(&own.velocity, &self.velocity[j]), &pair.separation);
-        if let Some(gradient) = self.gradient {
-            for (k, own) in own.gradient.iter().enumerate() {
-                let row: [L; D] = std::array::from_fn(|l| own[l] + L::splat(gradient[j][(k, l)]));
-                closing += L::splat(0.5) * pair.separation[k] * dot(&row, &pair.separation);
+        let parting = match self.gradient {
+            Some(gradient) => {
+                let other = (&self.velocity[j], &gradient[j]);
+                beyond_linear((&own.velocity, &own.gradient), other, &pair.separation)
             }
-        }
+            None => minus(&own.velocity, &self.velocity[j]),
+        };
+        let closing = -dot(&parting, &pair.separation);
         let speed = closing.max(L::splat(0.0)) / pair.distance2.sqrt();
         let share = speed * L::splat(2.0 * self.limiter) / (own.sound + L::splat(sound));
         let share = -(-share).max(L::splat(-1.0));

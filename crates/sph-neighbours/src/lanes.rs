@@ -3,8 +3,9 @@
 pub(crate) mod particles;
 pub(crate) mod separation;
 
+use nalgebra::SMatrix;
 use sph_core::Vect;
-use sph_kernels::lanes::Lane;
+use sph_kernels::lanes::{Lane, dot};
 
 /// One pair of a particle.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +68,23 @@ pub fn vector<const D: usize, L: Lane>(lanes: &[L; D], lane: usize) -> Vect<D> {
 pub fn unlike<L: Lane>(phases: L, other: u32) -> L {
     let apart = phases - L::splat(f64::from(other));
     apart * apart
+}
+
+/// u_ab − ½(G_a + G_b) r_ab: the part of a difference of velocities that no linear field explains; b is the same in all
+/// lanes.
+#[inline(always)]
+pub fn beyond_linear<const D: usize, L: Lane>(
+    (velocity, gradient): (&[L; D], &[[L; D]; D]),
+    (other, slope): (&Vect<D>, &SMatrix<f64, D, D>),
+    separation: &[L; D],
+) -> [L; D] {
+    std::array::from_fn(|k| {
+        let mut row = gradient[k];
+        for (l, entry) in row.iter_mut().enumerate() {
+            *entry = (*entry + L::splat(slope[(k, l)])) * L::splat(0.5);
+        }
+        velocity[k] - L::splat(other[k]) - dot(&row, separation)
+    })
 }
 
 /// a − b, b being the same in all lanes.

@@ -38,7 +38,7 @@ pub use kernel::kernels::KernelEntry;
 pub use kernel::lattice::{lattice_sum, rows_sum};
 pub use kernel::scaling::{Scaling, WallScale};
 pub use lanes::particles::Particles;
-pub use lanes::{LanePair, Pair, minus, splat, unlike, vector};
+pub use lanes::{LanePair, Pair, beyond_linear, minus, splat, unlike, vector};
 pub use lists::clusters::{CHUNK, Clusters};
 pub use lists::grid::{CellGrid, Extent};
 pub use lists::half::{SweepHalf, is_wanted};

@@ -28,3 +28,20 @@ impl GeneralisedNewtonian for Newtonian {
         self.viscosity
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use sph_core::Registry;
+
+    use crate::RheologyEntry;
+
+    #[test]
+    fn the_registered_law_reads_units_and_refuses_negative_viscosity() {
+        let entry = Registry::<RheologyEntry>::discovered().unwrap();
+        let entry = entry.find("newtonian").unwrap();
+        let law = (entry.build)(&toml::from_str("viscosity = '2 mPa s'").unwrap()).unwrap();
+        assert_eq!(law.uniform_viscosity(), Some(2e-3));
+        let refused = (entry.build)(&toml::from_str("viscosity = -1").unwrap()).unwrap_err();
+        assert!(refused.to_string().contains("at least 0 Pa s"), "{refused}");
+    }
+}

@@ -195,7 +195,7 @@ fn a_new_scene_is_good_and_never_overwrites() {
     // A copy brings the data that it is compared with.
     bench.done("new copy --from dam-break-koshizuka");
     bench.done("check copy.toml");
-    // So does a copy of a file, with its drawings.
+    // A copy of a file brings its drawings.
     std::fs::create_dir(bench.path("far")).expect("a folder");
     bench.write("far/tank.csv", "x,y\n0,1\n0,0\n1,0\n1,1\n");
     bench.write("far/drawn.toml", DRAWN);

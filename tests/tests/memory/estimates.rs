@@ -9,7 +9,7 @@ use sph_tests::shipped;
 /// The largest difference, of what is allocated: an estimate is to say whether a run fits, not to account for it.
 const OFF: f64 = 0.25;
 
-/// What `check` says a scene needs, and what its run had allocated at its most, bytes.
+/// Memory of a scene by `check`, and the most that its run had allocated, bytes.
 fn told_and_taken(name: &str, overrides: &[&str]) -> (Memory, f64) {
     let scene = shipped(name, overrides);
     let told = examine(&scene).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -2,6 +2,7 @@
 //!
 //! Bounds are the acceptance numbers of the scenes; the measured numbers stand in the messages.
 
+mod cavity;
 mod channels;
 mod dam_breaks;
 mod defaults;

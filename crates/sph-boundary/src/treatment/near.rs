@@ -116,12 +116,15 @@ impl<const D: usize> NearLists<D> {
     }
 
     fn find_rims<M: WallMesh<D>>(&mut self, mesh: &M) {
-        let at_rim = |near: &NearElement<D>| mesh.shells().is_rim(near.index());
-        let sees = |place: &u32| self.row(*place as usize).iter().any(at_rim);
-        self.rims = match mesh.shells().any() {
-            true => (0..self.particles.len() as u32).filter(sees).collect(),
-            false => Vec::new(),
-        };
+        // Its memory is used again: no build of the lists allocates.
+        let mut rims = std::mem::take(&mut self.rims);
+        rims.clear();
+        if mesh.shells().any() {
+            let at_rim = |near: &NearElement<D>| mesh.shells().is_rim(near.index());
+            let sees = |place: &u32| self.row(*place as usize).iter().any(at_rim);
+            rims.extend((0..self.particles.len() as u32).filter(sees));
+        }
+        self.rims = rims;
     }
 
     /// Adds how far the nodes have moved since the last build.

@@ -122,7 +122,10 @@ fn is_whole<const D: usize>(bench: &Bench<D>) {
     assert!(walls.points.volume.iter().all(|v| *v == volume));
     assert!(walls.elements.centre.is_empty() && walls.contacts.is_empty());
     assert!(bench.wall.columns().is_empty());
-    assert!(bench.gamma().iter().all(|g| *g == 0.0), "nobody wrote γ");
+    assert!(
+        bench.gamma().iter().all(|g| *g == 0.0),
+        "no sweep has written γ"
+    );
 }
 
 #[test]

@@ -16,6 +16,8 @@ trait Block<const D: usize> {
     const SPACING: f64;
     /// Number of particles around it, the box that they are in, and their least distance from the origin.
     const AROUND: (usize, f64, f64);
+    /// Least number of dummy particles in it.
+    const DUMMIES: usize;
 
     /// With its corners mapped.
     fn drawing(map: impl Fn([f64; D]) -> [f64; D]) -> Drawing;
@@ -46,6 +48,8 @@ struct Plane;
 impl Block<2> for Plane {
     const SPACING: f64 = 0.5;
     const AROUND: (usize, f64, f64) = (400, 4.0, 2.2);
+    /// Cells of half a metre in 2 m by 1 m.
+    const DUMMIES: usize = 8;
 
     fn drawing(map: impl Fn([f64; 2]) -> [f64; 2]) -> Drawing {
         let corners = [[-1.0, -0.5], [-1.0, 0.5], [1.0, 0.5], [1.0, -0.5]];
@@ -70,6 +74,7 @@ struct Space;
 impl Block<3> for Space {
     const SPACING: f64 = 0.4;
     const AROUND: (usize, f64, f64) = (1500, 3.0, 2.0);
+    const DUMMIES: usize = 21;
 
     fn drawing(map: impl Fn([f64; 3]) -> [f64; 3]) -> Drawing {
         let solid = block("block", [-1.0, -0.5, -0.7], [1.0, 0.5, 0.7]);
@@ -142,7 +147,7 @@ fn dummies_moved_with_it<B: Block<D>, const D: usize>() {
         let map = B::motion().pose(time).map();
         let positions = rest.world.walls.points.position.iter();
         let expected: Vec<Vect<D>> = positions.map(|x| map((*x).into()).into()).collect();
-        assert!(expected.len() >= 8, "{}", expected.len());
+        assert!(expected.len() >= B::DUMMIES, "{}", expected.len());
         assert!(farthest(&moved.world.walls.points.position, &expected) < 1e-14);
     }
 }

@@ -148,7 +148,8 @@ fn linear_velocities_feel_no_force_on_a_lattice() {
         let force = in_the_middle(lattice::<2>(15), 15, 2.0, &*operator, |x| {
             Vect::<2>::new(3.0 * x[1] - x[0], x[0])
         });
-        assert!(force.norm() < 1e-10, "{name}: {force}");
+        // ν u/h² ≈ 200 as a scale, cancelled by symmetry to rounding.
+        assert!(force.norm() < 1e-11, "{name}: {force}");
     }
 }
 
@@ -175,15 +176,16 @@ fn disorder_leaves_an_error_that_does_not_fall_with_the_spacing() {
 
 #[test]
 fn forces_of_two_phases_conserve_momentum_to_1e_13_and_take_energy() {
-    for (name, operator) in all::<2>() {
-        let cloud = cloud::<2>(24, 2.0, 8);
+    let seeds = [1, 2, 3, 4, 8].into_iter();
+    for (seed, (name, operator)) in seeds.flat_map(|seed| all::<2>().map(|one| (seed, one))) {
+        let cloud = cloud::<2>(24, 2.0, seed);
         let force = acceleration(&cloud, operator.term(Viscosity::PerParticle));
         let sum = imbalance(&cloud, &force);
         assert!(sum < 1e-13, "{name}: Σ m a / Σ m |a| = {sum:e}");
         let (mass, velocity) = cloud.free.all((fields::MASS, fields::VELOCITY)).unwrap();
         let power = |i: usize| mass[i] * force[i].dot(&velocity[i]);
         let power: f64 = (0..mass.len()).map(power).sum();
-        assert!(power < 0.0, "{name}: {power}");
+        assert!(power < 0.0, "{name}, seed {seed}: {power}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Particles in lanes, and their sums.
 
+use nalgebra::SMatrix;
 use sph_core::Vect;
 use sph_kernels::lanes::{Lane, MOST};
 
@@ -67,6 +68,12 @@ impl Particles {
     #[inline(always)]
     pub fn vectors<const D: usize, L: Lane>(self, column: &[Vect<D>]) -> [L; D] {
         self.each(|i| column[i].data.0[0])
+    }
+
+    /// The rows of their matrices in a column.
+    #[inline(always)]
+    pub fn matrices<const D: usize, L: Lane>(self, column: &[SMatrix<f64, D, D>]) -> [[L; D]; D] {
+        std::array::from_fn(|k| self.each(|i| std::array::from_fn(|l| column[i][(k, l)])))
     }
 
     /// Their phases, which are small whole numbers, exact as any; 0 without a column.

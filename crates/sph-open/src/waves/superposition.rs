@@ -194,7 +194,7 @@ impl Waves {
     /// `current`, m/s. Those that no current lets run against it are left out.
     ///
     /// # Errors
-    /// If there is none.
+    /// Waves of which the current stops all.
     pub fn components(
         &self,
         depth: f64,

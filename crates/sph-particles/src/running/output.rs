@@ -85,14 +85,16 @@ impl<const D: usize> Running<'_, D> {
             };
             remarks.extend(told);
             let finest = self.finest(name)?;
-            let (points, values, diameters) =
-                finest.unwrap_or_else(|| (points.clone(), values, Vec::new()));
+            let (points, values, diameters) = match &finest {
+                Some((points, values, diameters)) => (&points[..], &values[..], &diameters[..]),
+                None => (&points[..], &values[..], &[][..]),
+            };
             let picture = Picture {
-                diameters: &diameters,
+                diameters,
                 walls: &drawn_walls(&flow.world),
                 classes,
                 range,
-                ..self.picture(&points, &label, &values)
+                ..self.picture(points, &label, values)
             };
             picture.save(frames.picture(name))?;
         }

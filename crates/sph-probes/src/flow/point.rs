@@ -54,7 +54,7 @@ pub(crate) fn carried<const D: usize>(
 /// The number of the first wall of a name, which a stage needs for a purpose.
 ///
 /// # Errors
-/// If there is none.
+/// An unknown wall.
 pub(crate) fn wall_number<const D: usize>(
     world: &World<D>,
     wall: &str,

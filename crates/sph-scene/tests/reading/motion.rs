@@ -2,7 +2,7 @@
 
 use super::common::{scene, with};
 use sph_core::course::{Course, Translation};
-use sph_scene::Courses;
+use sph_scene::{Courses, SlipCondition};
 use tempfile::tempdir;
 
 fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses<2>, String> {
@@ -68,4 +68,13 @@ fn courses_come_from_files() {
     let found = courses(folder.path(), text).unwrap();
     let rows = [[0.0, 0.0], [0.1, 0.02], [0.2, 0.5]].into();
     assert_eq!(found.translations[0].course, Course::Table { rows });
+}
+
+#[test]
+fn partial_slip_has_a_length() {
+    let folder = tempdir().unwrap();
+    let text = "box = [[0, 0], [1, 1]]\ncondition = \"partial-slip\"\nslip_length = \"2 cm\"";
+    let wall = &scene(folder.path(), 2, text).wall["w"];
+    let slip = (SlipCondition::PartialSlip, Some(0.02));
+    assert_eq!((wall.condition, wall.slip_length), slip);
 }

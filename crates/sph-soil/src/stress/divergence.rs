@@ -3,7 +3,8 @@
 use nalgebra::SMatrix;
 use sph_core::{Field, Symmetric, SymmetricTensor, Vect, fields, plugin};
 use sph_neighbours::{
-    Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, dot, pair_sum, pair_term,
+    Interaction, Lane, LanePair, Neighbourhood, Particles, Rates, WallSet, add_scaled,
+    beyond_linear, dot, pair_sum, pair_term,
 };
 
 use crate::stress::{Blend, ElasticForce, ElasticForceEntry, LawInputs};
@@ -248,14 +249,10 @@ impl<const D: usize> BoundHourglassDamping<'_, D> {
     }
 
     fn own<L: Lane>(&self, all: Particles) -> Motion<L, D> {
-        let mut gradient = [[L::splat(0.0); D]; D];
-        for (k, row) in gradient.iter_mut().enumerate() {
-            *row = all.each(|i| self.gradient[i].row(k).transpose().data.0[0]);
-        }
         let [viscosity] = all.each(|i| [self.viscosity(i)]);
         Motion {
             velocity: all.vectors(self.velocity),
-            gradient,
+            gradient: all.matrices(self.gradient),
             viscosity,
         }
     }
@@ -269,14 +266,9 @@ impl<const D: usize> BoundHourglassDamping<'_, D> {
         // Twice the harmonic mean.
         let twice = own.viscosity * other * L::splat(4.0) / (own.viscosity + other);
         let weight = twice * L::splat(self.volume[j]) * pair.factor;
-        for (k, sum) in sum.iter_mut().enumerate() {
-            let mut row = own.gradient[k];
-            for (l, entry) in row.iter_mut().enumerate() {
-                *entry = (*entry + L::splat(self.gradient[j][(k, l)])) * L::splat(0.5);
-            }
-            let linear = dot(&row, &pair.separation);
-            *sum += (own.velocity[k] - L::splat(self.velocity[j][k]) - linear) * weight;
-        }
+        let own = (&own.velocity, &own.gradient);
+        let other = (&self.velocity[j], &self.gradient[j]);
+        add_scaled(sum, &beyond_linear(own, other, &pair.separation), weight);
     }
 
     fn finish(&self, sum: [f64; D], at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {

@@ -108,7 +108,7 @@ impl<const D: usize> Choices<D> {
         let solutions = plugins.named::<D, SolutionEntry>(solutions);
         let initial = plugins.named::<D, SolutionEntry>(initial);
         let in_force = plugins.in_force().map_err(SolverError::Scene)?;
-        let missing = |kind: &str| SolverError::at(kind, "there is none in this binary");
+        let missing = |kind: &str| SolverError::at(kind, "this binary has no plugin of the kind");
         Ok(Choices {
             kernel: kernel.ok_or_else(|| missing("kernel"))?,
             integrator: integrator.ok_or_else(|| missing("integrator"))?,

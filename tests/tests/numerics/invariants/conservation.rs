@@ -7,7 +7,7 @@ use sph_tests::{momentum, near, ran, spin};
 
 use crate::invariants::{fly, shipped};
 
-/// What the momentum has changed since the start, over Σ m |u| of the start.
+/// The change of the momentum since the start, over Σ m |u| of the start.
 fn drift(parts: &Assembled<2>, start: (Vect<2>, f64)) -> f64 {
     (momentum(parts).0 - start.0).norm() / start.1
 }

@@ -12,7 +12,7 @@ fn beside() -> String {
     exchanged(PLANE, body, column).replace("[numerics]\n", numerics)
 }
 
-/// What `check` says of a good scene, in one line.
+/// The output of `check` for a good scene, in one line.
 fn checked(scene: &str) -> String {
     one_line(&bench!(scene).done("check scene.toml").out)
 }
