@@ -38,7 +38,8 @@ impl BedExchange {
     /// Moves grains between a bed and the particles that touch it, for a step of `dt` seconds.
     ///
     /// Between the height a and a particle at the height z grains settle and mix in the shear of the wall: of the rate E at
-    /// which the flow lifts them, E (a/z)^Z arrives with Z = σw/(κu*), and the particle's own grains settle past a.
+    /// which the flow lifts them, E (a/z)^Z arrives with Z = σw/(κu*), and the particle's own grains settle past a. A particle
+    /// stands for the heights of its extent, and (z/a)^Z is the mean over them.
     /// A place gives no more than lies over its rock, and a particle takes no more than packed grains.
     pub fn step<const D: usize>(
         &self,
@@ -120,7 +121,8 @@ impl BedExchange {
             let area = bed.grid.area(place);
             let own = dt * area * part / weights[place].max(WET * 0.5 * area);
             let [rate, rouse] = rates[place];
-            let arriving = (self.height / distance.max(self.height)).powf(rouse);
+            let extent = volume[particle].powf(1.0 / D as f64);
+            let arriving = 1.0 / self.resistance(distance, extent, rouse);
             Pass {
                 particle,
                 place,
@@ -129,6 +131,14 @@ impl BedExchange {
             }
         });
         Ok(filled.collect())
+    }
+
+    /// The mean of (z/a)^Z, where it is above 1, over the heights that a particle of this extent at this distance stands for.
+    fn resistance(&self, distance: f64, extent: f64, rouse: f64) -> f64 {
+        let lower = (distance - 0.5 * extent).max(0.0) / self.height;
+        let upper = (distance + 0.5 * extent) / self.height;
+        let below = |z: f64| z.min(1.0) + (z.max(1.0).powf(1.0 + rouse) - 1.0) / (1.0 + rouse);
+        (below(upper) - below(lower)) / (upper - lower)
     }
 
     /// The rate at which the flow lifts grains off a place, m/s, and Z there.

@@ -13,7 +13,7 @@ use crate::pores::PhaseMask;
 /// with Godunov's flux of grains that settle, and eddies that mix. Dilute grains have none where C ∝ exp(−wz/D), whatever
 /// the places of the particles.
 ///
-/// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s. Source: Scharfetter and Gummel 1969 for dilute grains;
+/// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s, of two particles their [`log_mean`]. Source: Scharfetter and Gummel 1969 for dilute grains;
 /// the sum with Godunov's flux is ours.
 pub fn pair_flux(
     settling: &HinderedSettling,
@@ -29,6 +29,16 @@ pub fn pair_flux(
         false => 0.0,
     };
     settled + mixing * (above.concentration - below.concentration)
+}
+
+/// (b − a)/ln(b/a), the logarithmic mean of two diffusivities, m²/s: Δz over it is ∫dz/D where D is linear between them, as
+/// near a wall, and C ∝ D^(−w/D') is in balance. Zero if one of them is.
+pub fn log_mean(a: f64, b: f64) -> f64 {
+    let (least, most) = (a.min(b), a.max(b));
+    if least <= 0.0 || least == most {
+        return least.max(0.0);
+    }
+    (most - least) / ((most - least) / least).ln_1p()
 }
 
 /// Grains of a particle, as others see them.
@@ -114,7 +124,7 @@ impl Transport {
                     true => [grains[a], grains[b]],
                     false => [grains[b], grains[a]],
                 };
-                let diffusivity = 0.5 * (mixing[a] + mixing[b]);
+                let diffusivity = log_mean(mixing[a], mixing[b]);
                 let flux = pair_flux(&self.settling, both, drop.abs(), diffusivity);
                 // 2 V_aV_b |F_ab| (1/γ_a + 1/γ_b)/2.
                 let coupling = volume[a] * volume[b] * -pair.factor * (inverse(a) + inverse(b));
@@ -156,5 +166,22 @@ mod tests {
         let both = [0.2, 0.1].map(|c| Carried::new(&SETTLING, c));
         assert!((pair_flux(&SETTLING, both, 0.0, 1e-3) - 1e-4).abs() < 1e-18);
         assert_eq!(pair_flux(&SETTLING, both, 0.01, 0.0), 0.2 * 0.02 * 0.01);
+    }
+
+    /// Rouse's profile C ∝ z^(−Z), where D = κu*z, does not move, for any two heights.
+    #[test]
+    fn settling_and_mixing_by_a_wall_balance_exactly() {
+        let shear = 0.41 * 0.05;
+        for (lower, upper) in [(0.005, 0.015), (0.01, 0.0100001), (0.001, 0.1)] {
+            let concentration = |z: f64| 1e-6 * z.powf(-SETTLING.speed / shear);
+            let both = [upper, lower].map(|z| Carried::new(&SETTLING, concentration(z)));
+            let mixing = log_mean(shear * lower, shear * upper);
+            let flux = pair_flux(&SETTLING, both, upper - lower, mixing);
+            let settled = both[0].demand * (upper - lower);
+            assert!(flux.abs() < 1e-9 * settled, "{lower} {upper}: {flux:e}");
+        }
+        assert_eq!(log_mean(2.0, 2.0), 2.0);
+        assert_eq!(log_mean(0.0, 2.0), 0.0);
+        assert_eq!(log_mean(1.0, 3.0), log_mean(3.0, 1.0));
     }
 }
