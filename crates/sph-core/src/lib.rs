@@ -9,7 +9,8 @@
 //! * [`number`]: how numbers are written for people.
 //!
 //! Without the feature `plugins` there are only the parts that need no other crate: [`BoxTree`], [`Winding`],
-//! [`Symmetric`], [`course`], [`rectangular_duct`], [`Pool`] and [`Slots`].
+//! [`Symmetric`], [`course`], [`rectangular_duct`], [`nearest_place`], [`Pool`] and
+//! [`Slots`].
 //!
 //! ```
 //! use sph_core::{Field, Role, Scalar, Store};
@@ -53,6 +54,7 @@ mod registry;
 #[cfg(feature = "plugins")]
 mod saved;
 mod sets;
+mod simplex;
 mod slots;
 #[cfg(feature = "plugins")]
 mod stage;
@@ -70,6 +72,7 @@ pub use duct::rectangular_duct;
 pub use pool::{Pool, PoolGuard};
 pub use random::SplitMix;
 pub use sets::Sets;
+pub use simplex::{Feature, nearest_place};
 pub use slots::Slots;
 pub use symmetric::Symmetric;
 pub use winding::Winding;

@@ -7,5 +7,6 @@ pub(crate) mod polygon;
 pub(crate) mod region;
 pub(crate) mod shapes;
 pub(crate) mod solid;
+pub(crate) mod surround;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;

@@ -58,6 +58,7 @@ pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
 pub use geometry::shapes::Shape;
+pub use geometry::surround::Surround;
 pub use geometry::wall_geometry::sense;
 pub use reading::load::{LoadError, Loaded, Refused, load, parse, read};
 pub use reading::plugins::Plugins;
@@ -76,7 +77,7 @@ pub use tables::motion::{
 pub use tables::numerics::{
     GravityOverTime, GravitySine, Numerics, Periodic, PressureOf, ReferencePressure, Relax, Run,
 };
-pub use tables::outlet::{Outlet, Zone};
+pub use tables::outlet::{NearWall, Outlet, Zone};
 pub use tables::output::Output;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};

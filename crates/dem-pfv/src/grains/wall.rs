@@ -1,6 +1,7 @@
 //! Plane walls and surfaces of triangles, and their motion.
 
 use serde::{Deserialize, Serialize};
+use sph_core::nearest_place;
 
 use crate::grains::{GrainError, Vector};
 
@@ -264,36 +265,8 @@ impl Mesh {
     }
 }
 
-/// The point of a triangle nearest to a point. Source: Ericson 2005, §5.1.5.
-pub(crate) fn nearest(point: &Vector, [a, b, c]: [Vector; 3]) -> Vector {
-    let (ab, ac) = (b - a, c - a);
-    let ap = point - a;
-    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
-    }
-    let bp = point - b;
-    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return b;
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return a + ab * (d1 / (d1 - d3));
-    }
-    let cp = point - c;
-    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return c;
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return a + ac * (d2 / (d2 - d6));
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    let total = va + vb + vc;
-    a + ab * (vb / total) + ac * (vc / total)
+/// The point of a triangle nearest to a point.
+pub(crate) fn nearest(point: &Vector, corners: [Vector; 3]) -> Vector {
+    let corners = corners.map(<[f64; 3]>::from);
+    nearest_place((*point).into(), &corners).0.into()
 }

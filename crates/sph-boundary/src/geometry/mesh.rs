@@ -15,11 +15,12 @@ mod near;
 mod tree;
 
 pub(crate) use closest::angle;
-pub use closest::{Closest, Feature, SeenElement};
+pub use closest::{Closest, SeenElement};
 pub(crate) use elements::Simplices;
 pub use elements::{Element, Face, FaceEdge, FreeEdge, Mesh, Node, Opening};
 pub(crate) use inside::{SAME_DISTANCE, SAME_HEIGHT};
 pub(crate) use motion::bed_of;
+pub use sph_core::Feature;
 pub(crate) use tree::Sides;
 pub use tree::{ElementTree, NearElement, NearRows};
 

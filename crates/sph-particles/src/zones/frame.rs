@@ -32,7 +32,7 @@ pub(crate) struct Frame<const D: usize> {
 impl<const D: usize> Frame<D> {
     /// The shape of a zone whose particles have a support, m; none if the zone has no shape.
     pub fn new(scene: &Scene, zone: &Zone, support: f64) -> Option<Self> {
-        let mut shape = zone.shape.shape::<D>()?;
+        let mut shape = zone.shape_in::<D>(scene)?;
         if let Shape::Cuboid { lo, hi } = &mut shape {
             let periods = scene.numerics.periodic.bounds::<D>();
             for (k, period) in periods.into_iter().enumerate() {
@@ -46,7 +46,7 @@ impl<const D: usize> Frame<D> {
             shape,
             band: BAND * support,
             inset: 0.0,
-            carrier: zone.follows.clone(),
+            carrier: zone.carrier(scene).cloned(),
             carried: None,
         })
     }

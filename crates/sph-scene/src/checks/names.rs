@@ -79,14 +79,11 @@ pub(crate) fn references(scene: &mut Scene, source: &Source, whole: &mut TableCh
         reference.path = located(&reference.file, source, check);
     }
     for (name, zone) in &scene.zone {
-        if let Some(wall) = &zone.follows {
-            let walls: Vec<&String> = scene.wall.keys().collect();
-            known(
-                "wall",
-                wall,
-                &walls,
-                whole.below(&format!("zone.{name}.follows")),
-            );
+        let walls: Vec<&String> = scene.wall.keys().collect();
+        let near = zone.near.as_ref().map(|near| &near.wall);
+        for (key, wall) in [("follows", zone.follows.as_ref()), ("near.wall", near)] {
+            let check = whole.below(&format!("zone.{name}.{key}"));
+            wall.inspect(|wall| known("wall", wall, &walls, check));
         }
         for (k, probe) in zone.probes.iter().enumerate() {
             let key = format!("zone.{name}.probes[{k}]");

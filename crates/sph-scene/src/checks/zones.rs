@@ -11,7 +11,12 @@ pub(crate) fn check_zones(scene: &Scene, mut check: TableCheck<'_>) {
     let before = check.found.0.len();
     for (name, zone) in &scene.zone {
         let mut check = check.below(name);
-        shape(&zone.shape, &mut check);
+        if zone.near.is_none() {
+            shape(&zone.shape, &mut check);
+        }
+        let both = zone.near.is_some() && !zone.shape.given().is_empty();
+        let message = "a zone is `near` a wall or has a shape of its own, not both";
+        check.refuse(both, "near", message);
         let ratio = zone.ratio;
         let message = format!(
             "the ratio is 0.5, 0.25 or 0.125, found {ratio}: each zone halves the spacing around it"
@@ -39,16 +44,18 @@ fn nested<const D: usize>(scene: &Scene, name: &str, zone: &Zone, check: &mut Ta
     );
     let alone = ratio < 0.5 && around.is_none();
     check.refuse(alone, &format!("{name}.ratio"), message);
-    if let Some(around) = around.filter(|around| scene.zone[*around].follows != zone.follows) {
+    if let Some(around) =
+        around.filter(|around| scene.zone[*around].carrier(scene) != zone.carrier(scene))
+    {
         let message = format!(
             "the zone `{around}` around it does not move alike: give both the same `follows`"
         );
         check.add(&format!("{name}.follows"), message);
     }
-    let own = zone.shape.shape::<D>();
+    let own = zone.shape_in::<D>(scene);
     for (other, second) in &scene.zone {
         let meets = |(a, b): (&Shape<D>, Shape<D>)| a.is_near(&b, 0.0);
-        let both = own.as_ref().zip(second.shape.shape()).is_some_and(meets);
+        let both = own.as_ref().zip(second.shape_in(scene)).is_some_and(meets);
         let alike = name < other.as_str() && second.ratio == ratio;
         let message = format!("it overlaps the zone `{name}` of the same ratio: make them one");
         check.refuse(alike && both, other, message);

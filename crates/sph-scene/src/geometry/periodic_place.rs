@@ -137,14 +137,24 @@ pub(crate) fn spans<const D: usize>(
     periods: &[Option<[f64; 2]>; D],
 ) -> [bool; D] {
     let (lo, hi) = shape.bounds();
-    let near = ROUNDING * spacing;
+    let fills = fills((&lo, &hi), spacing, periods);
     let ends = |k: usize| match shape {
         Shape::Ball { .. } | Shape::Ellipse { .. } | Shape::Cone { .. } => false,
         Shape::Cylinder { from, to, .. } => (0..D).all(|j| j == k || from[j] == to[j]),
         _ => true,
     };
-    let fills = |k: usize, [from, to]: [f64; 2]| lo[k] <= from + near && hi[k] >= to - near;
-    std::array::from_fn(|k| periods[k].is_some_and(|period| ends(k) && fills(k, period)))
+    std::array::from_fn(|k| fills[k] && ends(k))
+}
+
+/// Axes along which a box fills the period.
+pub(crate) fn fills<const D: usize>(
+    (lo, hi): (&[f64; D], &[f64; D]),
+    spacing: f64,
+    periods: &[Option<[f64; 2]>; D],
+) -> [bool; D] {
+    let near = ROUNDING * spacing;
+    let within = |k: usize, [from, to]: [f64; 2]| lo[k] <= from + near && hi[k] >= to - near;
+    std::array::from_fn(|k| periods[k].is_some_and(|period| within(k, period)))
 }
 
 /// The point's image inside the period.

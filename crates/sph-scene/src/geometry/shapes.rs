@@ -1,6 +1,7 @@
 //! Shapes: boxes, balls, polygons, cylinders and so on.
 
 use crate::geometry::polygon::Polygon;
+use crate::geometry::surround::Surround;
 use crate::geometry::vector::distance;
 use crate::{LevelSurface, Wave};
 
@@ -66,6 +67,8 @@ pub enum Shape<const D: usize> {
         /// Lower and upper end along the axis, m.
         ends: [f64; 2],
     },
+    /// All that is near a wall.
+    Surround(Surround<D>),
 }
 
 impl<const D: usize> Shape<D> {
@@ -115,11 +118,17 @@ impl<const D: usize> Shape<D> {
                 let side = polygon.depth(axes_across(*axis).map(|k| x[k]));
                 side.min(x[*axis] - ends[0]).min(ends[1] - x[*axis])
             }
+            Shape::Surround(surround) => surround.depth(x),
         }
     }
 
     /// True if it encloses another shape widened by a margin, m; of shapes other than a ball the box around it.
     pub fn encloses(&self, inner: &Shape<D>, margin: f64) -> bool {
+        if let (Shape::Surround(outer), Shape::Surround(inner)) = (self, inner)
+            && let Some(beyond) = outer.beyond(inner)
+        {
+            return beyond >= margin;
+        }
         if let Shape::Ball { centre, radius } = inner {
             return self.depth(centre) >= radius + margin;
         }
@@ -200,6 +209,7 @@ impl<const D: usize> Shape<D> {
                 };
                 (of(low, ends[0]), of(high, ends[1]))
             }
+            Shape::Surround(surround) => surround.bounds(),
         }
     }
 }

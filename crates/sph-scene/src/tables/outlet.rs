@@ -41,6 +41,16 @@ impl Outlet {
     }
 }
 
+/// All places within a distance of a wall.
+#[parameters]
+pub struct NearWall {
+    /// Name of the wall.
+    pub wall: String,
+    /// Distance from it.
+    #[parameter(unit: "m", above: 0.0)]
+    pub distance: f64,
+}
+
 /// A place in which the flow is computed with finer particles, too.
 ///
 /// The scene's own particles stay everywhere; within the shape they follow the finer ones, and finer ones in a band around
@@ -50,7 +60,9 @@ pub struct Zone {
     /// Its shape, which may reach beyond walls; a box may span a whole period.
     #[serde(flatten)]
     pub shape: BodyShape,
-    /// Name of a wall that carries the shape with its centre; it stays if left out.
+    /// All that is near a wall, in place of a shape.
+    pub near: Option<NearWall>,
+    /// Name of a wall that carries the shape with its centre; if left out, the wall of `near`, or none.
     pub follows: Option<String>,
     /// Spacing in the zone over that of the scene: 1/2, or 1/4 and 1/8 within a zone of twice that.
     #[parameter(default: 0.5, above: 0, below: 1)]

@@ -178,8 +178,8 @@ impl Scene {
     }
 
     fn around_shape<const D: usize>(&self, zone: &Zone) -> Option<&String> {
-        let inner = zone.shape.shape::<D>()?;
-        let shape = |other: &Zone| other.shape.shape::<D>();
+        let inner = zone.shape_in::<D>(self)?;
+        let shape = |other: &Zone| other.shape_in::<D>(self);
         let encloses = |other: &Zone| shape(other).is_some_and(|s| s.encloses(&inner, 0.0));
         let twice = |other: &Zone| other.ratio == 2.0 * zone.ratio;
         let mut all = self.zone.iter();

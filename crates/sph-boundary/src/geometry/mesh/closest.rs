@@ -1,19 +1,10 @@
 //! The place of an element nearest to a point; distance and side of a place from a few elements.
 
+use sph_core::{Feature, nearest_place};
+
 use super::elements::Mesh;
 use super::tree::NearElement;
-use crate::geometry::vector::{along, dot, norm, sub};
-
-/// The nearest part of an element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Feature {
-    /// A place within.
-    Face,
-    /// A place on the edge of a triangle from this corner to the next.
-    Edge(u8),
-    /// This corner.
-    Corner(u8),
-}
+use crate::geometry::vector::{dot, norm, sub};
 
 /// The place of an element nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +40,7 @@ impl<const D: usize> Mesh<D> {
     /// The place of an image of an element nearest to a point.
     pub fn closest(&self, point: [f64; D], near: NearElement<D>) -> Closest<D> {
         let corners = self.corners_from(point, near);
-        let (offset, feature) = nearest_to_origin(&corners);
+        let (offset, feature) = nearest_place([0.0; D], &corners);
         Closest {
             offset,
             feature,
@@ -72,59 +63,6 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-#[inline]
-pub(crate) fn nearest_to_origin<const D: usize>(corners: &[[f64; D]; D]) -> ([f64; D], Feature) {
-    match corners[..] {
-        [a, b] => of_segment(a, b),
-        _ => of_triangle(corners[0], corners[1], corners[D - 1]),
-    }
-}
-
-#[inline]
-fn of_segment<const D: usize>(start: [f64; D], end: [f64; D]) -> ([f64; D], Feature) {
-    let whole = sub(end, start);
-    let part = -dot(start, whole) / dot(whole, whole);
-    let feature = match part {
-        p if p < 0.0 => Feature::Corner(0),
-        p if p > 1.0 => Feature::Corner(1),
-        _ => Feature::Face,
-    };
-    (along(start, part.clamp(0.0, 1.0), whole), feature)
-}
-
-/// The regions of a triangle as in Ericson, Real-Time Collision Detection (2005), §5.1.5.
-fn of_triangle<const D: usize>(a: [f64; D], b: [f64; D], c: [f64; D]) -> ([f64; D], Feature) {
-    let (ab, ac) = (sub(b, a), sub(c, a));
-    let (d1, d2) = (-dot(ab, a), -dot(ac, a));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return (a, Feature::Corner(0));
-    }
-    let (d3, d4) = (-dot(ab, b), -dot(ac, b));
-    if d3 >= 0.0 && d4 <= d3 {
-        return (b, Feature::Corner(1));
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return (along(a, d1 / (d1 - d3), ab), Feature::Edge(0));
-    }
-    let (d5, d6) = (-dot(ab, c), -dot(ac, c));
-    if d6 >= 0.0 && d5 <= d6 {
-        return (c, Feature::Corner(2));
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return (along(a, d2 / (d2 - d6), ac), Feature::Edge(2));
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let part = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return (along(b, part, sub(c, b)), Feature::Edge(1));
-    }
-    let sum = va + vb + vc;
-    let within = along(along(a, vb / sum, ab), vc / sum, ac);
-    (within, Feature::Face)
-}
-
 /// Angle of a triangle at a corner, rad.
 pub(crate) fn angle<const D: usize>(corners: &[[f64; D]; D], k: usize) -> f64 {
     let [a, b] = [1, 2].map(|n| sub(corners[(k + n) % D], corners[k]));
@@ -145,7 +83,7 @@ impl<const D: usize> SeenElement<D> {
                 continue;
             }
             let corners = element.corners.map(|corner| sub(corner, place));
-            let new = norm(nearest_to_origin(&corners).0);
+            let new = norm(nearest_place([0.0; D], &corners).0);
             if new >= within {
                 continue;
             }

@@ -1,8 +1,8 @@
 //! On which side of the walls a point is.
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, Feature, nearest_place};
 
-use super::closest::{Feature, angle, nearest_to_origin};
+use super::closest::angle;
 use super::elements::{Mesh, Simplices};
 use super::tree::{ElementTree, NearElement, Rays, Sides, flattened};
 use crate::geometry::vector::{bounds, dot, norm, widened};
@@ -163,7 +163,7 @@ where
         let mut front = 0.0;
         for near in tree.near(self, point, radius) {
             let corners = self.corners_from(point, near);
-            let (offset, feature) = nearest_to_origin(&corners);
+            let (offset, feature) = nearest_place([0.0; D], &corners);
             let distance = norm(offset);
             if distance > nearest * (1.0 + SAME_DISTANCE) {
                 continue;

@@ -1,8 +1,7 @@
 //! Elements of a mesh near one or many points.
 
-use sph_core::BoxTree;
+use sph_core::{BoxTree, nearest_place};
 
-use super::closest::nearest_to_origin;
 use super::elements::Mesh;
 use super::tree::{ElementTree, NearElement, NearRows, ROUNDING, Sphere};
 use crate::geometry::vector::{add, bounds, dot, norm, sub, widened};
@@ -77,7 +76,7 @@ impl<const D: usize> ElementTree<D> {
             // The mean of the corners is in the element.
             let surely = distance2 < radius * radius * (1.0 - ROUNDING);
             if surely || {
-                let (offset, _) = nearest_to_origin(&mesh.corners_from(point, near));
+                let (offset, _) = nearest_place([0.0; D], &mesh.corners_from(point, near));
                 dot(offset, offset) < radius * radius
             } {
                 found.push(near);

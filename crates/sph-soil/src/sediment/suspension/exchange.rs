@@ -121,8 +121,10 @@ impl BedExchange {
             let area = bed.grid.area(place);
             let own = dt * area * part / weights[place].max(WET * 0.5 * area);
             let [rate, rouse] = rates[place];
-            let extent = volume[particle].powf(1.0 / D as f64);
-            let arriving = 1.0 / self.resistance(distance, extent, rouse);
+            let half = 0.5 * volume[particle].powf(1.0 / D as f64);
+            let [lower, upper] =
+                [distance - half, distance + half].map(|z| z.max(0.0) / self.height);
+            let arriving = 1.0 / mean_resistance(lower, upper, rouse);
             Pass {
                 particle,
                 place,
@@ -131,14 +133,6 @@ impl BedExchange {
             }
         });
         Ok(filled.collect())
-    }
-
-    /// The mean of (z/a)^Z, where it is above 1, over the heights that a particle of this extent at this distance stands for.
-    fn resistance(&self, distance: f64, extent: f64, rouse: f64) -> f64 {
-        let lower = (distance - 0.5 * extent).max(0.0) / self.height;
-        let upper = (distance + 0.5 * extent) / self.height;
-        let below = |z: f64| z.min(1.0) + (z.max(1.0).powf(1.0 + rouse) - 1.0) / (1.0 + rouse);
-        (below(upper) - below(lower)) / (upper - lower)
     }
 
     /// The rate at which the flow lifts grains off a place, m/s, and Z there.
@@ -152,5 +146,31 @@ impl BedExchange {
             true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],
             false => [0.0; 2],
         }
+    }
+}
+
+/// The mean of (z/a)^Z, where it is above 1, over the heights from `lower` to `upper`, heights over a.
+fn mean_resistance(lower: f64, upper: f64, rouse: f64) -> f64 {
+    // A difference of powers, one of which overflows where the shear is weak, would be no number.
+    let (least, most, power) = (lower.max(1.0), upper.max(1.0), 1.0 + rouse);
+    let over = most.powf(power) * (1.0 - (least / most).powf(power)) / power;
+    (upper.min(1.0) - lower.min(1.0) + over) / (upper - lower)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mean_resistance;
+
+    /// The mean is that of many heights, and infinite, not unknown, where grains rise no more.
+    #[test]
+    fn resistance_is_the_mean_over_the_extent() {
+        for (lower, upper, rouse) in [(0.0, 10.0, 1.1), (3.0, 4.0, 2.9), (0.2, 0.9, 1.0)] {
+            let height = |k: i32| lower + (upper - lower) * (f64::from(k) + 0.5) / 1e5;
+            let all = (0..100_000).map(|k| height(k).max(1.0).powf(rouse));
+            let mean = all.sum::<f64>() / 1e5;
+            let found = mean_resistance(lower, upper, rouse);
+            assert!((found / mean - 1.0).abs() < 1e-8, "{found} {mean}");
+        }
+        assert_eq!(mean_resistance(5.0, 15.0, 1e4), f64::INFINITY);
     }
 }
