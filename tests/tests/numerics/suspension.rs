@@ -93,6 +93,43 @@ fn what_leaves_the_bed_is_in_the_water() {
     }
 }
 
+/// Rouse's profile from E/w at two grains over the bed, C/C_a = (a (H − z)/(z (H − a)))^Z, for the mean Shields number, below
+/// 0.9 H. Measured are 0.91 to 1.01; rows at all heights up to the spacing, balanced each at its own, have 1.12 to 1.42.
+#[test]
+fn a_suspension_has_the_level_and_form_of_rouses_profile() {
+    let bench = bench!(include_str!("rouse.toml"));
+    bench.done("run scene.toml --quiet --out out");
+    let (time, all) = (
+        column(&bench, "out", "time"),
+        column(&bench, "out", "bed.shields"),
+    );
+    let late: Vec<f64> = (time.iter().zip(&all))
+        .filter(|(t, _)| **t > 8.0)
+        .map(|(_, s)| *s)
+        .collect();
+    let shields = late.iter().sum::<f64>() / late.len() as f64;
+    let (diameter, depth, weight) = (2e-4, 0.2, 1.65 * 9.81);
+    let size: f64 = diameter * (weight / 1e-12_f64).cbrt();
+    let speed = 1e-6 / diameter * ((10.36_f64.powi(2) + 1.049 * size.powi(3)).sqrt() - 10.36);
+    let critical = 0.3 / (1.0 + 1.2 * size) + 0.055 * (1.0 - (-0.02 * size).exp());
+    let excess = (shields - critical) / critical;
+    let rate = 0.00033 * size.powf(0.3) * excess.powf(1.5) * (weight * diameter).sqrt();
+    let power = speed / (0.41 * (shields * weight * diameter).sqrt());
+    let rouse = |z: f64| {
+        let a = 2.0 * diameter;
+        rate / speed * (a * (depth - z) / (z * (depth - a))).powf(power)
+    };
+    let profile = sph_io::read_table(bench.path("out/curves/grains_0001.csv")).expect("curves");
+    let values = |name| profile.column(name).expect("a column").iter();
+    let all = values("distance").zip(values("mean"));
+    let below: Vec<_> = all.filter(|(z, _)| **z < 0.9 * depth).collect();
+    assert_eq!(below.len(), 9);
+    for (z, mean) in below {
+        let level = mean / rouse(*z);
+        assert!((level - 1.0).abs() < 0.15, "{level} at {z} m");
+    }
+}
+
 #[test]
 fn no_grain_leaves_a_bed_up_to_the_threshold() {
     let law = "grain_diameter = \"1 mm\"";

@@ -121,9 +121,13 @@ impl BedExchange {
             let area = bed.grid.area(place);
             let own = dt * area * part / weights[place].max(WET * 0.5 * area);
             let [rate, rouse] = rates[place];
-            let half = 0.5 * volume[particle].powf(1.0 / D as f64);
-            let [lower, upper] =
-                [distance - half, distance + half].map(|z| z.max(0.0) / self.height);
+            // A particle behind the line of an element is at its height.
+            let (middle, half) = (
+                distance.max(0.0),
+                0.5 * volume[particle].powf(1.0 / D as f64),
+            );
+            let lower = (middle - half).max(0.0) / self.height;
+            let upper = (middle + half) / self.height;
             let arriving = 1.0 / mean_resistance(lower, upper, rouse);
             Pass {
                 particle,
@@ -142,7 +146,8 @@ impl BedExchange {
         let speed = self.settling.speed;
         let excess = bed.shields(place) - bed.critical[place];
         let rate = self.law.rate(excess, self.critical, &self.grains, speed);
-        match rate > 0.0 {
+        // On a slope at its repose grains are loose without shear, too.
+        match rate > 0.0 && friction_velocity > 0.0 {
             true => [rate, self.schmidt * speed / (KARMAN * friction_velocity)],
             false => [0.0; 2],
         }
