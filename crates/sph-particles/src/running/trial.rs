@@ -60,7 +60,7 @@ fn examined_and_tried<const D: usize>(
     }
     let mut start = Snapshot::default();
     start.take(&assembled.flow).map_err(SolverError::from)?;
-    let none = Coupling::new(assembled.diffused, None, Vec::new());
+    let none = Coupling::new(&assembled, None, Vec::new());
     let mut alone = Stepper::from_parts(scene, assembled, none);
     let coarse = timed(scene, &mut alone, budget / 2);
     let mut assembled = alone.parts;

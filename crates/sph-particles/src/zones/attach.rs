@@ -10,7 +10,7 @@ use sph_solver::SolverError;
 use super::coupling::{Coupling, Level, Stepper};
 use super::frame::Frame;
 use super::guard::Guard;
-use super::refusals::{refuse, refuse_places};
+use super::refusals::{refuse, refuse_places, scalars};
 use crate::setup::{Assembled, assemble, box_around};
 
 /// The zones of an assembled scene.
@@ -36,7 +36,7 @@ fn coupling<const D: usize>(
     let zones = scene.zone.iter().filter(|(_, zone)| zone.ratio == 0.5);
     let levels = zones.map(|(name, zone)| level(scene, parts, (name, zone), depth));
     let levels = levels.collect::<Result<_, _>>()?;
-    Ok(Coupling::new(parts.diffused, guard, levels))
+    Ok(Coupling::new(parts, guard, levels))
 }
 
 /// A zone in an assembled scene, which is `depth` levels below the coarsest.
@@ -63,7 +63,7 @@ fn level<const D: usize>(
         parts.flow.world.free.take_out(&beyond);
     }
     refuse(name, &parts)?;
-    let guard = Guard::new(frame.clone(), scene.numerics.spacing);
+    let guard = Guard::new(frame.clone(), scene.numerics.spacing, scalars(&parts.flow));
     let coupling = coupling(&finer, &parts, Some(guard), depth + 1)?;
     let stepper = Stepper::from_parts(&finer, parts, coupling);
     Ok(Level::new(name, frame, stepper, depth))
@@ -98,13 +98,16 @@ pub(crate) fn scene_of_zone<const D: usize>(
     finer
 }
 
-/// Names of the walls that no particle of a zone can ever see. Where walls bound a body all stay.
+/// Names of the walls that no particle of a zone can ever see. Where walls bound a body, or eddies depend on their
+/// distance, all stay.
 fn walls_out_of_reach<const D: usize>(
     scene: &Scene,
     around: &World<D>,
     frame: &Frame<D>,
 ) -> Vec<String> {
-    if frame.carrier().is_some() || scene.body.values().any(|body| body.fill.is_some()) {
+    let filled = scene.body.values().any(|body| body.fill.is_some());
+    let measured = ["eddy-viscosity", "wall-function"].map(|kind| scene.choice(kind).is_some());
+    if frame.carrier().is_some() || filled || measured.contains(&true) {
         return Vec::new();
     }
     let [low, high] = frame.corners(frame.band + around.kernel.support_radius());

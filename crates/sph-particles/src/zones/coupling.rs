@@ -5,7 +5,7 @@ mod stepper;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use sph_core::{StepError, System, Vect, fields};
+use sph_core::{Field, Scalar, StepError, System, Vect, fields};
 use sph_multiphase::Diffused;
 use sph_neighbours::World;
 use sph_probes::Probe;
@@ -15,6 +15,7 @@ use super::fit::weight;
 use super::frame::Frame;
 use super::guard::{Guard, spread};
 use super::near::NearbyPlaces;
+use super::refusals::scalars;
 use super::sample::{REACH, State, States};
 use crate::setup::{Assembled, measure_walls};
 
@@ -43,6 +44,8 @@ pub(crate) type Particles<'a, const D: usize> = (&'a Flow<D>, Vec<usize>);
 pub(crate) struct Coupling<const D: usize> {
     /// The quantity that the formulation integrates for the density.
     diffused: Diffused,
+    /// Scalars of state that go from flow to flow besides.
+    pub scalars: Vec<Field<Scalar>>,
     /// The band around it, if it is a zone.
     pub guard: Option<Guard<D>>,
     /// Its zones.
@@ -52,10 +55,11 @@ pub(crate) struct Coupling<const D: usize> {
 }
 
 impl<const D: usize> Coupling<D> {
-    /// Of a formulation.
-    pub fn new(diffused: Diffused, guard: Option<Guard<D>>, levels: Vec<Level<D>>) -> Self {
+    /// Of an assembled flow.
+    pub fn new(parts: &Assembled<D>, guard: Option<Guard<D>>, levels: Vec<Level<D>>) -> Self {
         Coupling {
-            diffused,
+            diffused: parts.diffused,
+            scalars: scalars(&parts.flow),
             guard,
             levels,
             inner: Vec::new(),
@@ -101,7 +105,7 @@ impl<const D: usize> Coupling<D> {
             let velocity = flow.world.free.get_mut(fields::VELOCITY)?;
             let states = band.iter();
             states.for_each(|(k, state)| velocity[*k] = state.velocity);
-            Ok(())
+            move_scalars(&self.scalars, flow, &band, 1.0)
         })?;
         match &self.guard {
             Some(guard) => accelerate(flow, &band, &guard.frame.at(flow)),
@@ -154,6 +158,7 @@ impl<const D: usize> Coupling<D> {
             let own = velocity[*k];
             velocity[*k] += (state.velocity - own) * share;
         }
+        move_scalars(&self.scalars, flow, &self.inner, share)?;
         move_densities(self.diffused, flow, &self.inner, share)
     }
 
@@ -326,6 +331,22 @@ fn move_densities<const D: usize>(
     let changes: Vec<(usize, f64)> = led.iter().map(change).collect();
     let value = flow.world.free.get_mut(diffused.evolved.value)?;
     changes.iter().for_each(|(k, change)| value[*k] += change);
+    Ok(())
+}
+
+/// Changes scalars of state by a share of the way to those of `led`.
+fn move_scalars<const D: usize>(
+    scalars: &[Field<Scalar>],
+    flow: &mut Flow<D>,
+    led: &States<D>,
+    share: f64,
+) -> Result<(), StepError> {
+    for (n, field) in scalars.iter().enumerate() {
+        let values = flow.world.free.get_mut(*field)?;
+        for (k, state) in led {
+            values[*k] += share * (state.scalars[n] - values[*k]);
+        }
+    }
     Ok(())
 }
 

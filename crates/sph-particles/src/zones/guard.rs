@@ -1,9 +1,11 @@
 //! The band around a zone, in which its particles follow those around and are pushed apart until no two lie together.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use sph_boundary::{Wall, WallStates};
 use sph_contribution::Newborn;
-use sph_core::{Slots, StepError, Vect, fields};
+use sph_core::{Field, Scalar, Slots, StepError, Vect, fields};
 use sph_neighbours::CellGrid;
 use sph_solver::Flow;
 
@@ -23,6 +25,8 @@ pub(crate) struct Guard<const D: usize> {
     walls: [WallStates; 2],
     /// Spacing around the zone, m.
     pub spacing: f64,
+    /// Scalars of state that it carries.
+    scalars: Vec<Field<Scalar>>,
     before: Sample<D>,
     now: Sample<D>,
     /// Places of the present particles in the earlier sample.
@@ -30,13 +34,14 @@ pub(crate) struct Guard<const D: usize> {
 }
 
 impl<const D: usize> Guard<D> {
-    /// Around a zone, in particles with a spacing, m.
-    pub fn new(frame: Frame<D>, spacing: f64) -> Self {
+    /// Around a zone, in particles with a spacing, m, and some scalars of state.
+    pub fn new(frame: Frame<D>, spacing: f64, scalars: Vec<Field<Scalar>>) -> Self {
         Guard {
             frames: [frame.clone(), frame.clone()],
             walls: Default::default(),
             frame,
             spacing,
+            scalars,
             before: Sample::default(),
             now: Sample::default(),
             earlier: Vec::new(),
@@ -57,7 +62,7 @@ impl<const D: usize> Guard<D> {
             .as_ref()
             .map(|w| w.states())
             .unwrap_or_default();
-        let now = Sample::of_flow(around, |x| self.frames[1].holds(x, margin))?;
+        let now = Sample::of_flow(around, &self.scalars, |x| self.frames[1].holds(x, margin))?;
         self.before = std::mem::replace(&mut self.now, now);
         if self.before.time >= self.now.time {
             self.before = Sample::default();
@@ -233,6 +238,8 @@ impl<const D: usize> Guard<D> {
             let mut places = [1.0, 0.5, 0.25].into_iter().map(at);
             places.find(is_fluid).unwrap_or(centre)
         };
+        let named = self.scalars.iter().map(|field| field.name.to_string());
+        let values: Arc<[_]> = named.zip(state.scalars).collect();
         let child = |corner| Newborn {
             position: place(corner),
             velocity: state.velocity,
@@ -240,7 +247,7 @@ impl<const D: usize> Guard<D> {
             mass: self.now.masses[parent] / f64::from(1 << D),
             phase: 0,
             body: "zone".into(),
-            values: [].into(),
+            values: values.clone(),
         };
         (0..1 << D).map(child).collect()
     }

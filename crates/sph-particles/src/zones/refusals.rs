@@ -1,10 +1,11 @@
 //! Scenes that cannot have zones, and zones that do not fit their surroundings.
 
-use sph_core::fields;
+use sph_core::{AnyField, Field, Scalar, Shape as Form, fields};
 use sph_scene::{Scene, Shape, Zone};
-use sph_solver::SolverError;
+use sph_solver::{Flow, SolverError};
 
 use super::frame::Frame;
+use super::sample::SCALARS;
 use crate::setup::Assembled;
 
 /// Columns of state that follow from places, velocities and densities, are led, or begin with those of the parents.
@@ -22,6 +23,20 @@ const CARRIED: [&str; 9] = [
 
 /// Kinds of plugins that solve for all particles at once.
 const SOLVES: [&str; 2] = ["pressure", "implicit-viscosity"];
+
+/// Kinds of plugins that keep a sum over all particles.
+const OF_ALL: [&str; 2] = ["flow-control", "suspension"];
+
+/// Scalars of state besides the density, as turbulent energy: a zone has them from the flow around, which has them from
+/// the zone. At most [`SCALARS`].
+pub(crate) fn scalars<const D: usize>(flow: &Flow<D>) -> Vec<Field<Scalar>> {
+    let state = flow.state_columns();
+    let own = |field: &AnyField| {
+        field.shape == Form::Scalar && state.contains(&field.name) && !CARRIED.contains(&field.name)
+    };
+    let all = flow.world.free.fields().filter(own);
+    all.map(AnyField::scalar).take(SCALARS).collect()
+}
 
 /// Refuses zones whose bands reach across a period, or into each other.
 ///
@@ -104,18 +119,24 @@ pub(crate) fn refuse<const D: usize>(name: &str, zone: &Assembled<D>) -> Result<
     if flow.laws.len() > 1 {
         return refused("zones are for one phase, and this scene has several".into());
     }
-    let carried = |column: &&str| CARRIED.contains(column);
+    let scalars = scalars(flow);
+    let named = |column: &str| scalars.iter().any(|field| field.name == column);
+    let carried = |column: &&str| CARRIED.contains(column) || named(column);
     let columns = flow.state_columns();
     if let Some(other) = columns.iter().find(|column| !carried(column)) {
         return refused(format!(
-            "zones carry places, velocities, masses and densities, and this scene has the state `{other}` besides"
+            "zones carry places, velocities, masses, densities and at most {SCALARS} scalars, and this scene has the \
+             state `{other}` besides"
         ));
     }
-    let solves = |kind: &str| SOLVES.contains(&kind);
+    let names = |kinds: &[&str]| zone.plugins.iter().any(|p| kinds.contains(&&*p.kind));
     let why = if !flow.gates.is_empty() {
         "particles come in or leave by walls of this scene, which zones cannot follow"
-    } else if !flow.hooks.kicking.is_empty() || zone.plugins.iter().any(|p| solves(&p.kind)) {
+    } else if !flow.hooks.kicking.is_empty() || names(&SOLVES) {
         "this scene solves for the end of a step over all particles, which zones cannot share"
+    } else if names(&OF_ALL) {
+        "this scene keeps a sum over all particles, the rate of a flow or the number of grains, which zones have for \
+         themselves only"
     } else if !zone.integrator.kicks_once() {
         "zones want an integrator that evaluates once a step, as `symplectic-euler`"
     } else if !flow.world.walls.beds.is_empty() {

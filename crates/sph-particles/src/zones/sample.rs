@@ -1,19 +1,24 @@
 //! The state of the particles near a zone at one time, and between two times.
 
 use rayon::prelude::*;
-use sph_core::{FieldError, Vect, fields};
+use sph_core::{Field, FieldError, Scalar, Vect, fields};
 use sph_neighbours::{Domain, World};
 use sph_solver::Flow;
 
 use super::fit::Fit;
 use super::near::NearbyPlaces;
 
-/// Density, velocity and acceleration at a place.
+/// Most scalars of state of a flow besides the density.
+pub(crate) const SCALARS: usize = 4;
+
+/// Density, velocity, acceleration and other scalars of state at a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State<const D: usize> {
     pub density: f64,
     pub velocity: Vect<D>,
     pub acceleration: Vect<D>,
+    /// In the order of the flow's [`scalars`](super::refusals::scalars), then zeros.
+    pub scalars: [f64; SCALARS],
 }
 
 /// Particles of a flow, by their places in its columns, with states that another flow has there.
@@ -33,12 +38,18 @@ pub(crate) struct Sample<const D: usize> {
 }
 
 impl<const D: usize> Sample<D> {
-    /// Those of a flow that are `wanted`.
+    /// Those of a flow that are `wanted`, with some scalars of state.
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn of_flow(flow: &Flow<D>, wanted: impl Fn(&Vect<D>) -> bool) -> Result<Self, FieldError> {
+    pub fn of_flow(
+        flow: &Flow<D>,
+        scalars: &[Field<Scalar>],
+        wanted: impl Fn(&Vect<D>) -> bool,
+    ) -> Result<Self, FieldError> {
         let free = &flow.world.free;
+        let scalars = scalars.iter().map(|field| free.get(*field));
+        let scalars = scalars.collect::<Result<Vec<_>, _>>()?;
         let identity = free.get(fields::IDENTITY)?;
         let position = free.get(fields::POSITION)?;
         let (mass, density) = (free.get(fields::MASS)?, free.get(fields::DENSITY)?);
@@ -58,6 +69,7 @@ impl<const D: usize> Sample<D> {
                 density: density[k],
                 velocity: velocity[k],
                 acceleration: acceleration[k],
+                scalars: std::array::from_fn(|n| scalars.get(n).map_or(0.0, |all| all[k])),
             });
         }
         Ok(sample)
@@ -94,6 +106,7 @@ impl<const D: usize> Sample<D> {
                 density: part(then.density, now.density),
                 velocity: mixed(then.velocity, now.velocity),
                 acceleration: (now.velocity - then.velocity) / length,
+                scalars: std::array::from_fn(|n| part(then.scalars[n], now.scalars[n])),
             };
         }
         between
@@ -155,14 +168,23 @@ impl<'a, const D: usize> Source<'a, D> {
             density: 0.0,
             velocity: Vect::zeros(),
             acceleration: Vect::zeros(),
+            scalars: [0.0; SCALARS],
         };
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; SCALARS];
         for (weight, k) in weights.iter().zip(near) {
             let state = &self.sample.states[*k as usize];
             sum.density += state.density * *weight;
             sum.velocity += state.velocity * *weight;
             sum.acceleration += state.acceleration * *weight;
             (least, most) = (least.min(state.density), most.max(state.density));
+            for (n, value) in state.scalars.into_iter().enumerate() {
+                sum.scalars[n] += value * *weight;
+                ranges[n] = [ranges[n][0].min(value), ranges[n][1].max(value)];
+            }
+        }
+        for (sum, [least, most]) in sum.scalars.iter_mut().zip(ranges) {
+            *sum = sum.clamp(least, most);
         }
         let beyond = if most < SMOOTH * least {
             most - least

@@ -86,10 +86,10 @@ impl<const D: usize> Level<D> {
 
     /// States of the particles of the flow around that are in the core.
     fn states(&self, around: &Flow<D>) -> Result<States<D>, StepError> {
-        let own = &self.stepper.parts.flow;
+        let (own, scalars) = (&self.stepper.parts.flow, &self.stepper.coupling.scalars);
         // A fit in the core does not reach beyond the sides.
         let frame = self.frame();
-        let sample = Sample::of_flow(own, |x| frame.holds(x, 0.0))?;
+        let sample = Sample::of_flow(own, scalars, |x| frame.holds(x, 0.0))?;
         let source = Source::new(&sample, &own.world.domain, own.world.spacing);
         let position = around.world.free.get(fields::POSITION)?;
         Ok(source.all(position, |x| frame.in_core(x), |_| false))
