@@ -21,7 +21,7 @@ const ALLOWED: &str = "
     sph-boundary: sph-core sph-kernels sph-neighbours
     sph-open: sph-core sph-kernels sph-neighbours sph-boundary sph-rheology sph-contribution sph-probes
     sph-rheology: sph-core sph-derive
-    sph-contribution: sph-core sph-neighbours sph-rheology sph-multiphase
+    sph-contribution: sph-core sph-neighbours sph-rheology
     sph-multiphase: sph-core sph-neighbours sph-rheology sph-contribution sph-kernels sparse
     sph-probes: sph-core sph-kernels sph-neighbours
     sph-io: sph-core
