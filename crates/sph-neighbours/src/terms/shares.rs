@@ -65,8 +65,8 @@ pub struct ClassRate<const D: usize> {
     pub scalar: f64,
 }
 
-/// The sums of so many classes of terms at the state of the last sweep, those of a particle together; terms of no class are
-/// left out.
+/// The sums of so many classes of terms, one or more, at the state of the last sweep, those of a particle together;
+/// terms of no class are left out.
 ///
 /// Every term goes over the neighbours on its own: for the account of a step, not for the step.
 pub fn class_rates<const D: usize>(

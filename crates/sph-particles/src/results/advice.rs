@@ -29,7 +29,8 @@ pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
 }
 
 /// Settings to try, with their possible gains, by the costs in a summary; `remedies` are those of bounds whose plugin
-/// has one, all speeds of sound may fall by the factor `sound` ([`room_of_sound`]), and the stages of `solves` have a solver.
+/// has one, all speeds of sound may fall by the factor `sound` ([`room_of_sound`]), and the stages of `solves` have a
+/// solver.
 pub fn advice(
     costs: &Summary,
     remedies: &BTreeMap<String, String>,
