@@ -53,7 +53,7 @@ fn right<const D: usize>(n: usize) -> Vec<Vect<D>> {
     (0..n).map(|i| Vect::from_fn(|k, _| wave(i, k))).collect()
 }
 
-fn conjugate(preconditioner: Preconditioner) -> ConjugateGradient {
+fn conjugate<const D: usize>(preconditioner: Preconditioner) -> ConjugateGradient<D> {
     ConjugateGradient {
         preconditioner,
         iterations: 20_000,
@@ -94,7 +94,7 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
 
 fn scaling<const D: usize>(sides: &[usize], reach: f64, direct_up_to: usize)
 where
-    ConjugateGradient: LinearSolver<D>,
+    ConjugateGradient<D>: LinearSolver<D>,
 {
     for stiffness in [30.0, 3e3, 3e5] {
         println!("\n{D}D, stiffness {stiffness:e}: ms per solve of {D} components");

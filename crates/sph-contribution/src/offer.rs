@@ -45,6 +45,8 @@ pub struct Offer<const D: usize> {
     pub hooks: Vec<Box<dyn StepHook<D>>>,
     /// True if hooks before a drift read density, volume, pressure and γ of the present positions.
     pub fresh_state: bool,
+    /// Names of stages and hooks that are cheaper with a looser tolerance of their solver, for advice on costs.
+    pub solves: Vec<String>,
     /// Forces that hooks take out of the sweep, for measurements of forces.
     pub outside: Vec<OutsideForce<D>>,
     /// Sources and sinks of particles.
@@ -81,6 +83,7 @@ impl<const D: usize> Offer<D> {
         self.inner_bounds.extend(other.inner_bounds);
         self.hooks.extend(other.hooks);
         self.fresh_state |= other.fresh_state;
+        self.solves.extend(other.solves);
         self.outside.extend(other.outside);
         self.gates.extend(other.gates);
         self.stored.extend(other.stored);

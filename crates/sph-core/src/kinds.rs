@@ -119,6 +119,8 @@ pub struct PluginKind {
     pub place: Place,
     /// The plugin of a scene that names none.
     pub default: Option<&'static str>,
+    /// The plugin that messages advise, if it is another than the default.
+    pub advised: Option<&'static str>,
     /// The plugin, or parameters of the named one, for a flow of a nature.
     pub suited: Suits,
     /// State of a scene that names none, for kinds without a default.
@@ -144,6 +146,7 @@ impl PluginKind {
             purpose,
             place,
             default: None,
+            advised: None,
             suited: |_, _| None,
             absent: "none if left out",
             idle: None,
@@ -172,6 +175,16 @@ impl PluginKind {
         matches!(self.place, Place::One | Place::Any)
     }
 
+    /// The plugin that messages advise, as scenes name it: "`[damping.acoustic]`"; the kind alone where there is none.
+    pub fn advice(&self) -> String {
+        let plugin = self.advised.or(self.default);
+        let name = plugin.map_or(self.name.into(), |name| format!("{}.{name}", self.name));
+        match self.has_table() {
+            true => format!("`[{name}]`"),
+            false => format!("`{name}`"),
+        }
+    }
+
     /// State of a scene that names none: "`tait` if left out".
     pub fn if_left_out(&self) -> String {
         self.default
@@ -194,6 +207,8 @@ macro_rules! setters {
 setters! {
     /// With a default.
     by_default(plugin: &'static str) => default = Some(plugin);
+    /// With a plugin that messages advise.
+    advises(plugin: &'static str) => advised = Some(plugin);
     /// With a text for scenes that name none, after a semicolon: "explicit if left out".
     absent(text: &'static str) => absent = text;
     /// With a message to scenes that name a plugin and have no use for it.

@@ -51,12 +51,14 @@ impl<const D: usize> Contribution<D> for Compressible<D> {
                 }
             }
             Some(scheme) => {
-                offer.stages.push(scheme.stage(Acting {
+                let stage = scheme.stage(Acting {
                     state: Box::new(state),
                     laws: setting.laws.clone(),
                     dilatation: self.formulation.dilatation(),
                     surfaces: self.surfaces,
-                }));
+                });
+                offer.solves.push(stage.name());
+                offer.stages.push(stage);
                 offer.limiters = scheme.limiters(setting);
             }
         }

@@ -12,7 +12,7 @@ use sph_core::{Access, Axis, StepError, Vect, Work, fields, parameters, plugin};
 contribution_kind!(
     /// Damping that a scene may name.
     pub DampingEntry, "damping", Any, "damping of motion: of a fluid that is to settle, of waves, of sound",
-    .works(Work::Damping)
+    .advises("acoustic").works(Work::Damping)
 );
 
 /// du/dt = −Γ(x) (u − U), with the velocity of the end of the step: u ← (u + ΓΔt U)/(1 + ΓΔt) after every kick, for any

@@ -28,7 +28,7 @@ pub use assemble::{Assembly, Rows};
 pub use automatic::Automatic;
 pub use bicgstab::Bicgstab;
 pub use cholesky::Cholesky;
-pub use conjugate_gradient::{ConjugateGradient, Memories};
+pub use conjugate_gradient::{ConjugateGradient, Memory};
 pub use entry::{Block, Entry};
 pub use halved::{Halved, Halves};
 pub use jacobi::Jacobi;

@@ -203,5 +203,6 @@ pub trait OpenBoundary<const D: usize>: Send + Sync + std::fmt::Debug {
 
 contract!(
     /// The law of an open face that a wall may name.
-    pub OpenBoundaryEntry, "open-boundary", InWall, "the condition at a wall that fluid passes", OpenBoundary<D>
+    pub OpenBoundaryEntry, "open-boundary", InWall, "the condition at a wall that fluid passes", OpenBoundary<D>,
+    .advises("outflow")
 );

@@ -1,7 +1,7 @@
 //! Assembles the plugins a scene names into a plan, and steps it.
 //!
 //! The solver has traits and the registry, and no concrete kernel, wall, rheology, formulation, integrator, probe or
-//! solution: names come from the scene, or from [`defaults`] where the scene is silent.
+//! solution: names come from the scene, or from the kind of plugin where the scene is silent.
 //!
 //! * [`setup`]: names → plugins → stages in order, terms, step limits. `sph-particles` gives them particles and walls.
 //! * [`Flow`]: one evaluation, one step; a [`sph_core::System`] for the integrator. `sph-particles` takes the steps of a run.
@@ -11,7 +11,6 @@
 use sph_multiphase as _;
 use sph_soil as _;
 
-pub mod defaults;
 mod error;
 pub mod kernels;
 pub mod rheometer;

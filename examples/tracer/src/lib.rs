@@ -40,20 +40,14 @@ struct BoundDiffusion<'a, const K: usize> {
     slot: usize,
 }
 
-impl<const D: usize, const K: usize> PairSum<D> for BoundDiffusion<'_, K> {
-    type Own<L: Lane> = L;
-    type Sum<L: Lane> = L;
-    #[inline(always)]
+#[pair_sum]
+impl<const D: usize, const K: usize> BoundDiffusion<'_, K> {
     fn own<L: Lane>(&self, all: Particles) -> L {
         all.numbers(self.value)
     }
-    #[inline(always)]
     fn pair<L: Lane>(&self, own: &L, j: usize, pair: &LanePair<D, L>, sum: &mut L) {
         *sum += L::splat(self.volume[j]) * (*own - L::splat(self.value[j])) * pair.factor;
     }
-}
-
-impl<const D: usize, const K: usize> BoundTerm<D> for BoundDiffusion<'_, K> {
     fn finish(&self, sum: f64, at: &Neighbourhood<'_, D>, rates: &mut Rates<D>) {
         rates.more[self.slot] += self.twice * sum * at.inverse_renormalisation;
     }

@@ -4,7 +4,7 @@
 //! Everything between the two lines could be a crate of its own. A binary that mentions it,
 //! `use my_plugins as _;`, and calls `sph_cli::main()` has the plugins in all its commands.
 
-use sph_contribution::{Contribution, Offer, Refusal, Setting};
+use sph_contribution::{Contribution, Offer, Refusal, Setting, contribution_kind};
 use sph_core::{Access, Declares, Stage, StepError, fields, plugin};
 use sph_kernels::{Kernel, Sampler, ScalarSampler};
 use sph_multiphase::viscosity::EddyViscosityEntry;
@@ -69,6 +69,54 @@ impl<const D: usize> Interaction<D> for LinearDrag {
             rate: 1.0 / self.time,
         })
     }
+}
+
+/// The drag of a kind, by its name, with a rate.
+struct Brake(&'static str, f64);
+
+impl<const D: usize> Interaction<D> for Brake {
+    fn name(&self) -> String {
+        self.0.into()
+    }
+    fn access(&self) -> Access {
+        Access::none().here(fields::VELOCITY)
+    }
+    fn with_columns(&self, world: &World<D>, with: &mut WithTerm<'_, D>) -> Result<(), StepError> {
+        with(&BoundDrag {
+            velocity: world.free.get(fields::VELOCITY)?,
+            rate: self.1,
+        })
+    }
+}
+
+/// Kinds with one plugin each: a drag.
+macro_rules! brakes {
+    ($($entry:ident $plugin:ident $kind:literal,)+) => {$(
+        contribution_kind!(
+            /// A drag.
+            $entry, $kind, Any, "a force against the velocity"
+        );
+
+        #[plugin($entry [2, 3], "brake", "a force against the velocity", source: "Stokes")]
+        struct $plugin {
+            /// Share of the velocity that is lost in a second.
+            rate: f64,
+        }
+
+        impl<const D: usize> Contribution<D> for $plugin {
+            fn offer(&mut self, _: &Setting<'_, D>, offer: &mut Offer<D>) -> Result<(), Refusal> {
+                offer.term(Brake($kind, self.rate));
+                Ok(())
+            }
+        }
+    )+};
+}
+
+brakes! {
+    BandBrakeEntry BandBrake "band-brake",
+    DiscBrakeEntry DiscBrake "disc-brake",
+    DrumBrakeEntry DrumBrake "drum-brake",
+    RimBrakeEntry RimBrake "rim-brake",
 }
 
 /// η_t = η₀ + ρ (C δr)² γ̇: Smagorinsky's, with a constant part.
@@ -211,6 +259,25 @@ fn the_work_of_a_drag_of_ones_own_stands_under_its_kind() {
     let work = last("budget.term");
     assert!((work / lost + 1.0).abs() < 1e-6, "{work} J of {lost} J");
     assert_eq!(last("budget.others"), 0.0);
+}
+
+/// Each has the share of its rate in the energy that goes.
+#[test]
+fn four_kinds_of_ones_own_have_four_accounts() {
+    let kinds = ["band-brake", "disc-brake", "drum-brake", "rim-brake"];
+    let rates = [1.0, 2.0, 3.0, 4.0];
+    let both = || kinds.into_iter().zip(rates);
+    let tables = both().map(|(kind, rate)| format!("[{kind}.brake]\nrate = {rate:?}\n"));
+    let tables: String = tables.collect();
+    let budget = "[probe.budget]\nkind = \"energy-budget\"\n";
+    let run = run_text(&format!("{PERIODIC}\n{tables}{budget}")).unwrap();
+    let lost = run.column("budget.kinetic")[0] - run.last("budget.kinetic");
+    assert!(lost > 100.0, "{lost} J");
+    for (kind, rate) in both() {
+        let share = -run.last(&format!("budget.{kind}")) / lost;
+        assert!((share / (0.1 * rate) - 1.0).abs() < 1e-6, "{kind}: {share}");
+    }
+    assert_eq!(run.last("budget.others"), 0.0);
 }
 
 #[test]

@@ -21,7 +21,7 @@ const ALLOWED: &str = "
     sph-boundary: sph-core sph-kernels sph-neighbours
     sph-open: sph-core sph-kernels sph-neighbours sph-boundary sph-rheology sph-contribution sph-probes
     sph-rheology: sph-core sph-derive
-    sph-contribution: sph-core sph-neighbours sph-rheology sph-multiphase
+    sph-contribution: sph-core sph-neighbours sph-rheology
     sph-multiphase: sph-core sph-neighbours sph-rheology sph-contribution sph-kernels sparse
     sph-probes: sph-core sph-kernels sph-neighbours
     sph-io: sph-core
@@ -182,14 +182,23 @@ fn heavy_crates_stay_in_their_room() {
     }
 }
 
-/// The solver assembles what scenes name. The names that it knows itself are on one page, `defaults.rs`.
+/// The solver assembles what scenes name; kinds have the names that its messages advise.
 #[test]
-fn no_plugin_is_named_in_the_solver_but_on_its_page_of_defaults() {
+fn no_plugin_is_named_in_the_solver_and_kinds_advise_plugins_that_there_are() {
     let folders = SOLVERS.map(|name| root().join("crates").join(name).join("src"));
+    for kind in kinds() {
+        let names: Vec<_> = (kind.plugins)().iter().map(|plugin| plugin.name).collect();
+        let advised = kind.advised.is_none_or(|name| names.contains(&name));
+        assert!(
+            advised,
+            "{} advises {:?} of {names:?}",
+            kind.name, kind.advised
+        );
+    }
     let sources = folders.iter().flat_map(|folder| sources(folder));
     let mut named = Vec::new();
     let mut lines = 0;
-    for (path, text) in sources.filter(|(path, _)| !path.ends_with("defaults.rs")) {
+    for (path, text) in sources {
         // Tests may run scenes.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         lines += code.lines().count();

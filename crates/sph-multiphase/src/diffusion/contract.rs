@@ -10,7 +10,7 @@ use crate::diffusion::{Accelerated, MeanAcceleration};
 contribution_kind!(
     /// A smoother that a scene may name: a density diffusion that damps the chequerboard mode of pressure.
     pub SmootherEntry, "smoother", One, "density diffusion against pressure noise",
-    .suited(smoother).ordered(70).works(Work::Smoothing)
+    .suited(smoother).advises("brezzi-pitkaranta").ordered(70).works(Work::Smoothing)
 );
 
 contribution_kind!(

@@ -4,7 +4,7 @@ use sph_core::plugin;
 
 use crate::linear::conjugate_gradient::{ITERATIONS, iterate};
 use crate::linear::{
-    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, LinearSystem, Memories, Operator,
+    Cholesky, Diagonal, LinearSolver, LinearSolverEntry, LinearSystem, Memory, Operator,
     Preconditioner, Report, SolveError, SolveResult, Tolerance,
 };
 
@@ -23,20 +23,21 @@ use crate::linear::{
 /// [linear-solver.automatic]
 /// tolerance = 1e-8
 /// ```
-#[plugin(LinearSolverEntry [2, 3], "automatic",
+#[plugin(LinearSolverEntry [2 => Automatic<2>, 3 => Automatic<3>], "automatic",
     "conjugate gradients, and in 2D Cholesky for the systems for which they take too long",
     source: "docs/validation/implicit.md")]
-pub struct Automatic {
+#[schemars(rename = "Automatic")]
+pub struct Automatic<const D: usize> {
     /// Relative residual |b − A x| / |b| of the iterative solvers.
     #[parameter(default: 1e-8, unit: "1", above: 0.0, max: 0.1, source: "ours")]
     pub tolerance: f64,
     #[serde(skip)]
     direct: Cholesky,
     #[serde(skip)]
-    memories: Memories,
+    memory: Memory<D>,
 }
 
-impl Automatic {
+impl<const D: usize> Automatic<D> {
     /// With another tolerance of the iterative solvers.
     pub fn to(tolerance: f64) -> Self {
         Automatic {
@@ -65,7 +66,7 @@ fn mild<const D: usize>(operator: &dyn Operator<D>) -> bool {
     operator.stiffness().is_some_and(|ratio| ratio < MILD)
 }
 
-impl<const D: usize> LinearSolver<D> for Automatic {
+impl<const D: usize> LinearSolver<D> for Automatic<D> {
     fn needs_entries(&self, operator: &dyn Operator<D>) -> bool {
         matches!(operator.diagonal(), Some(Diagonal::Scalar(_))) && !mild(operator)
     }
@@ -74,8 +75,7 @@ impl<const D: usize> LinearSolver<D> for Automatic {
         let within = |iterations| Tolerance::new(self.tolerance.max(enough), iterations);
         let Some(diagonal) = operator.diagonal() else {
             let (none, system) = (Preconditioner::None, (operator, right, x));
-            let work = |memory: &mut _| iterate(none, within(ITERATIONS), memory, system);
-            return self.memories.with_memory(work);
+            return iterate(none, within(ITERATIONS), &mut self.memory, system);
         };
         let mixed = matches!(diagonal, Diagonal::Block(_));
         let stages = match (mild(operator), mixed) {
@@ -95,8 +95,8 @@ impl<const D: usize> LinearSolver<D> for Automatic {
             };
             // Each stage starts from the result of the one before.
             let system = (operator, right, &mut *x);
-            let work = |memory: &mut _| iterate(preconditioner, within(iterations), memory, system);
-            match self.memories.with_memory(work) {
+            let memory = &mut self.memory;
+            match iterate(preconditioner, within(iterations), memory, system) {
                 Err(SolveError::NotConverged { .. } | SolveError::NotPositive { .. })
                     if !last || patience.is_some() =>
                 {

@@ -1,7 +1,5 @@
 //! Preconditioned conjugate gradients, and their memory from solve to solve.
 
-use std::any::Any;
-
 use sph_core::{Vect, plugin};
 
 use crate::linear::operator::{add, scale_and_add};
@@ -20,11 +18,12 @@ use crate::linear::{
 /// [linear-solver.conjugate-gradient]
 /// preconditioner = "incomplete-diagonal"
 /// ```
-#[plugin(LinearSolverEntry [2, 3], "conjugate-gradient",
+#[plugin(LinearSolverEntry [2 => ConjugateGradient<2>, 3 => ConjugateGradient<3>], "conjugate-gradient",
     "preconditioned conjugate gradients: little memory, best where steps are moderate or in 3D",
     source: "Hestenes & Stiefel 1952")]
 #[derive(Clone)]
-pub struct ConjugateGradient {
+#[schemars(rename = "ConjugateGradient")]
+pub struct ConjugateGradient<const D: usize> {
     /// The preconditioner.
     #[parameter(default, source: "docs/validation/implicit.md: iterations against contrast")]
     pub preconditioner: Preconditioner,
@@ -36,7 +35,7 @@ pub struct ConjugateGradient {
     pub iterations: usize,
     /// Vectors and factors of solves before, kept for their memory.
     #[serde(skip)]
-    pub memories: Memories,
+    pub memory: Memory<D>,
 }
 
 /// Default of the largest number of iterations.
@@ -45,15 +44,14 @@ const METHOD: &str = "conjugate gradients";
 /// Iterations after which the matrix is put into a form that is read faster: to do so takes as long as two products.
 const PREPARE: usize = 3;
 
-impl<const D: usize> LinearSolver<D> for ConjugateGradient {
+impl<const D: usize> LinearSolver<D> for ConjugateGradient<D> {
     fn needs_entries(&self, _: &dyn Operator<D>) -> bool {
         self.preconditioner.factorises()
     }
 
     fn solve_to(&mut self, system: LinearSystem<'_, D>, enough: f64) -> SolveResult {
         let tolerance = Tolerance::new(self.tolerance.max(enough), self.iterations);
-        self.memories
-            .with_memory(|memory| iterate(self.preconditioner, tolerance, memory, system))
+        iterate(self.preconditioner, tolerance, &mut self.memory, system)
     }
 }
 
@@ -120,38 +118,20 @@ pub(crate) fn iterate<const D: usize>(
 
 /// Vectors and factors of the solves before, for vectors of D components.
 #[derive(Default)]
-pub(crate) struct Memory<const D: usize> {
+pub struct Memory<const D: usize> {
     /// Residuals of the solve at hand.
-    pub history: Vec<f64>,
-    pub r: Vec<Vect<D>>,
-    pub z: Vec<Vect<D>>,
-    pub direction: Vec<Vect<D>>,
-    pub image: Vec<Vect<D>>,
-    pub factors: Factors<D>,
-    pub halves: Halves<D>,
+    history: Vec<f64>,
+    r: Vec<Vect<D>>,
+    z: Vec<Vect<D>>,
+    direction: Vec<Vect<D>>,
+    image: Vec<Vect<D>>,
+    factors: Factors<D>,
+    halves: Halves<D>,
 }
 
-/// The memory of a solver.
-#[derive(Default)]
-pub struct Memories(Option<Box<dyn Any + Send + Sync>>);
-
-impl Memories {
-    /// Lends that of solves for vectors of D components.
-    pub(crate) fn with_memory<const D: usize, R>(
-        &mut self,
-        work: impl FnOnce(&mut Memory<D>) -> R,
-    ) -> R {
-        let kept = self.0.take().and_then(|kept| kept.downcast().ok());
-        let mut memory: Box<Memory<D>> = kept.unwrap_or_default();
-        let done = work(&mut memory);
-        self.0 = Some(memory);
-        done
-    }
-}
-
-impl Clone for Memories {
+impl<const D: usize> Clone for Memory<D> {
     /// None yet: a memory is not shared.
     fn clone(&self) -> Self {
-        Memories::default()
+        Memory::default()
     }
 }

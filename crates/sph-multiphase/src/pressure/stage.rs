@@ -21,7 +21,7 @@ pub(crate) struct SolvePressure<const D: usize> {
     acting: Acting<D>,
     /// The lowest pressure of every law, Pa.
     floors: Vec<f64>,
-    solver: Automatic,
+    solver: Automatic<1>,
     scratch: Scratch<D>,
 }
 
@@ -83,7 +83,7 @@ impl<const D: usize> Stage<World<D>> for SolvePressure<D> {
 }
 
 impl<const D: usize> SolvePressure<D> {
-    pub fn new(acting: Acting<D>, solver: Automatic) -> Self {
+    pub fn new(acting: Acting<D>, solver: Automatic<1>) -> Self {
         let floor = |law: &dyn BoundState| {
             let mut pressure = [0.0];
             law.pressure(&[TORN * law.reference().density], &mut pressure);

@@ -14,7 +14,7 @@ use super::cone::{FREE_SURFACE, Place, free_surface};
 contribution_kind!(
     /// A treatment of free surfaces that a scene may name.
     pub SurfaceEntry, "surface", One, "free surfaces, and densities there",
-    .absent("surfaces that densities remember if left out").works(Work::Surface)
+    .absent("surfaces that densities remember if left out").advises("cone-test").works(Work::Surface)
 );
 
 /// The density constant K of [`HuAdams`](crate::HuAdams) belongs to a place, not to a particle:

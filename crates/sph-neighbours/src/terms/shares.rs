@@ -65,26 +65,28 @@ pub struct ClassRate<const D: usize> {
     pub scalar: f64,
 }
 
-/// The sums of `N` classes of terms at the state of the last sweep, one entry per particle; terms of no class are left out.
+/// The sums of so many classes of terms, one or more, at the state of the last sweep, those of a particle together;
+/// terms of no class are left out.
 ///
 /// Every term goes over the neighbours on its own: for the account of a step, not for the step.
-pub fn class_rates<const D: usize, const N: usize>(
+pub fn class_rates<const D: usize>(
     world: &World<D>,
     terms: &[&dyn Interaction<D>],
+    classes: usize,
     class: impl Fn(&str) -> Option<usize>,
-) -> Result<Vec<[ClassRate<D>; N]>, StepError> {
+) -> Result<Vec<ClassRate<D>>, StepError> {
     let none = ClassRate {
         acceleration: Vect::zeros(),
         scalar: 0.0,
     };
     let surroundings = Surroundings::new(world)?;
-    let mut all = vec![[none; N]; surroundings.particles()];
+    let mut all = vec![none; classes * surroundings.particles()];
     for interaction in terms {
         let Some(class) = class(&interaction.name()) else {
             continue;
         };
         interaction.with_columns(world, &mut |term| {
-            let particles = all.par_iter_mut().enumerate().with_min_len(256);
+            let particles = all.par_chunks_mut(classes).enumerate().with_min_len(256);
             particles.for_each_init(Rows::default, |rows, (i, sums)| {
                 let mut rates = Rates::from_acceleration(Vect::zeros());
                 term.row(&surroundings.neighbourhood(i, rows), &mut rates);

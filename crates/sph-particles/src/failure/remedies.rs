@@ -1,8 +1,9 @@
 //! Remedies that a user has, by the failure.
 
-use sph_core::StepError;
+use sph_core::{Contract, StepError};
+use sph_multiphase::SurfaceEntry;
+use sph_multiphase::diffusion::SmootherEntry;
 use sph_scene::Scene;
-use sph_solver::defaults;
 
 use crate::Failure;
 use crate::failure::findings::{Findings, Share};
@@ -44,7 +45,7 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
             format!(
                 "if a splash folds or tears the surface, {} lets densities forget it, where they are sums; \
                  `numerics.density_bounds` may be too narrow",
-                defaults::SURFACE
+                SurfaceEntry::KIND.advice()
             ),
         ],
         "position" => vec![
@@ -53,9 +54,8 @@ fn against_quantity(cause: &StepError, found: &Findings) -> Vec<String> {
                 .into(),
         ],
         _ if found.largest().is_none() => {
-            let smoother = defaults::suggested("smoother").into_iter();
-            let remedy = smoother.map(|s| format!("give the scene a smoother ({s})"));
-            remedy.collect()
+            let smoother = SmootherEntry::KIND.advice();
+            vec![format!("give the scene a smoother ({smoother})")]
         }
         _ => Vec::new(),
     }
@@ -79,9 +79,10 @@ fn against_term(scene: &Scene, share: &Share, told: &Remedies) -> Option<String>
         ));
     }
     let what = match share.kind.as_str() {
-        "formulation" => match (scene.choice("smoother"), defaults::suggested("smoother")) {
-            (None, Some(smoother)) => format!(
-                "give the scene a smoother ({smoother}), or look whether bodies overlap or collide"
+        "formulation" => match scene.choice("smoother") {
+            None => format!(
+                "give the scene a smoother ({}), or look whether bodies overlap or collide",
+                SmootherEntry::KIND.advice()
             ),
             _ => "look whether bodies overlap or collide there".into(),
         },

@@ -29,10 +29,16 @@ pub fn room_of_sound(mach: f64, density: [f64; 2]) -> f64 {
 }
 
 /// Settings to try, with their possible gains, by the costs in a summary; `remedies` are those of bounds whose plugin
-/// has one, and all speeds of sound may fall by the factor `sound` ([`room_of_sound`]).
-pub fn advice(costs: &Summary, remedies: &BTreeMap<String, String>, sound: f64) -> Vec<String> {
+/// has one, all speeds of sound may fall by the factor `sound` ([`room_of_sound`]), and the stages of `solves` have a
+/// solver.
+pub fn advice(
+    costs: &Summary,
+    remedies: &BTreeMap<String, String>,
+    sound: f64,
+    solves: &[String],
+) -> Vec<String> {
     let limiter = limiter(costs, remedies, sound).into_iter();
-    limiter.chain(stage(costs)).collect()
+    limiter.chain(stage(costs, solves)).collect()
 }
 
 /// Mean of every bound, s: steps over the sum of 1/Δt, so that bounds that hold seldom count little.
@@ -72,7 +78,7 @@ fn limiter(s: &Summary, remedies: &BTreeMap<String, String>, sound: f64) -> Opti
 }
 
 /// A stage beside the sweeps, which are the work itself, that takes most of the time.
-fn stage(s: &Summary) -> Option<String> {
+fn stage(s: &Summary, solves: &[String]) -> Option<String> {
     let stages = &s.wall_seconds_by_stage;
     let all: f64 = stages.values().sum();
     let (name, seconds) = stages.iter().find(|(_, t)| **t > MOST * all)?;
@@ -83,9 +89,7 @@ fn stage(s: &Summary) -> Option<String> {
     let what = match name.as_str() {
         "output" => "a longer `output.every` and `output.series_every`, or `output.vtk = false`",
         LISTS_NAME => "a larger `numerics.skin`, so that lists last longer",
-        name if name.contains("implicit") || name.contains("solve") => {
-            "a looser tolerance of its solver, or another solver"
-        }
+        _ if solves.contains(name) => "a looser tolerance of its solver, or another solver",
         _ => return None,
     };
     Some(format!(
@@ -129,7 +133,12 @@ mod tests {
             wall_seconds_by_stage: table(stages),
             ..Summary::default()
         };
-        advice(&costs, &remedies.into(), sound)
+        advice(
+            &costs,
+            &remedies.into(),
+            sound,
+            &["implicit viscosity".into()],
+        )
     }
 
     #[test]

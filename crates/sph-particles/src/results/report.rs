@@ -92,7 +92,7 @@ impl<const D: usize> Running<'_, D> {
         };
         let remedies = flow.remedies_of_bounds()?;
         let sound = advice::room_of_sound(mach, summary.density_range);
-        summary.advice = advice::advice(&summary, &remedies, sound);
+        summary.advice = advice::advice(&summary, &remedies, sound, &flow.solves);
         self.say_what_is_odd(&mut summary);
         Ok(summary)
     }

@@ -8,10 +8,11 @@
 
 use std::collections::BTreeSet;
 
-use sph_core::StepError;
+use sph_core::{Contract, StepError};
+use sph_multiphase::damping::DampingEntry;
 use sph_scene::{Scene, given};
+use sph_solver::Flow;
 use sph_solver::step::WALL_MOTION;
-use sph_solver::{Flow, defaults};
 
 use crate::results::balance::{Balance, COMPRESSIBLE, SUPERSONIC};
 use crate::setup::moves;
@@ -94,7 +95,7 @@ impl EnergyWatch {
 
     /// Entries of the summary, if there are any: a warning, and advice.
     pub fn remarks(&self) -> Option<[String; 2]> {
-        let damping = defaults::SOUND_DAMPING;
+        let damping = DampingEntry::KIND.advice();
         let advice = format!(
             "`[probe.NAME] kind = \"energy-budget\"` lists the source of the energy; {damping} damps the sound that walls make, also beside a smoother"
         );

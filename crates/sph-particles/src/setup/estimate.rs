@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 use sph_core::{FieldError, Plain, Role, StepLimit};
 use sph_neighbours::{Clusters, World};
 use sph_scene::{Scene, estimate};
-use sph_solver::{Flow, SolverError, defaults};
+use sph_solver::{Flow, SolverError};
 
+use crate::setup::initial_world::SKIN;
 use crate::setup::shapes::Drawn;
 
 /// Bytes per particle of columns, lists and buffers together, before a scene is assembled: that of water in the usual
@@ -113,7 +114,7 @@ impl Size {
         let particles = estimate(&drawn.regions, spacing);
         let wall_points = drawn.measure / spacing.powi(D as i32 - 1);
         let all = particles + wall_points;
-        let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
+        let skin = scene.numerics.skin.unwrap_or(SKIN);
         // Neighbours in the list, for a kernel that reaches two smoothing lengths.
         let reach = 2.0 * scene.numerics.smoothing_ratio * (1.0 + skin);
         let neighbours = match D {

@@ -4,18 +4,21 @@ use sph_boundary::{BoundaryError, ThinWall, Wall, WallEntry, WallSetup};
 use sph_contribution::Plugins;
 use sph_core::fields::SCALE;
 use sph_core::plausible::Quantity;
-use sph_core::{Store, comma_list};
+use sph_core::{Contract, Store, comma_list};
 use sph_multiphase::Formulation;
 use sph_neighbours::{WallSet, World};
 use sph_scene::Scene;
+use sph_solver::SolverError;
 use sph_solver::setup::Choices;
-use sph_solver::{SolverError, defaults};
 
 use crate::setup::domain::{check_periods, domain_of};
 use crate::setup::leaks::{Leak, leaks};
 use crate::setup::placement::{PlacedParticles, place};
 use crate::setup::shapes::Drawn;
 use crate::setup::share::Share;
+
+/// Skin of the neighbour lists as a share of the support radius, for scenes that give none.
+pub(crate) const SKIN: f64 = 0.1;
 
 /// The room in which particles will move, and where they begin.
 pub(crate) struct InitialWorld<const D: usize> {
@@ -110,7 +113,7 @@ fn empty<const D: usize>(
     if let Some(why) = Quantity::refused("kernel support over the spacing", support) {
         return Err(SolverError::at("numerics.smoothing_ratio", why));
     }
-    let skin = scene.numerics.skin.unwrap_or(defaults::SKIN);
+    let skin = scene.numerics.skin.unwrap_or(SKIN);
     let domain = domain_of(scene, drawn);
     check_periods(&domain, kernel.support_radius() * (1.0 + skin))?;
     Ok(World {
@@ -152,7 +155,7 @@ fn check_scaling<const D: usize>(
     let path = &refused.path;
     let why = format!(
         "`{path}` has sums that `{treatment}` does not scale: take {}",
-        defaults::KNOWN_WALLS
+        WallEntry::KIND.advice()
     );
     Err(SolverError::at(refused.path, why))
 }

@@ -6,16 +6,16 @@
 
 use std::sync::Arc;
 
-use sph_boundary::{Wall, WallCondition};
+use sph_boundary::{Wall, WallCondition, WallEntry};
 use sph_contribution::Part;
 use sph_core::fields::RENORMALISATION;
-use sph_core::{SceneProblem, Vect};
+use sph_core::{Contract, SceneProblem, Vect};
 use sph_neighbours::{CellGrid, World};
-use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenSetting, open};
+use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenBoundaryEntry, OpenSetting, open};
 use sph_rheology::state::{Laws, Lift};
 use sph_scene::Scene;
+use sph_solver::SolverError;
 use sph_solver::setup::Choices;
-use sph_solver::{SolverError, defaults};
 
 use crate::setup::box_around;
 use crate::setup::initial_world::InitialWorld;
@@ -39,8 +39,10 @@ pub fn prepare<const D: usize>(
     let opens =
         |w: &dyn Wall<D>| w.columns() == [RENORMALISATION.any()] && w.lattice_offset() > 0.0;
     let Some(walls) = choices.walls.take().filter(|w| opens(&**w)) else {
-        let write = defaults::OPEN_WALLS;
-        let why = format!("open faces need semi-analytical walls without vertices: write {write}");
+        let walls = WallEntry::KIND.advice();
+        let why = format!(
+            "open faces need semi-analytical walls without vertices: write {walls} with `vertices = false`"
+        );
         return Err(SolverError::at(path(scene, first, ""), why));
     };
     let phases: Vec<String> = scene.phase.keys().cloned().collect();
@@ -112,7 +114,7 @@ pub fn check<const D: usize>(
         }
     }
     SolverError::refuse(blocked)?;
-    let outflow = defaults::OUTFLOW;
+    let outflow = OpenBoundaryEntry::KIND.advice();
     let closed = (!opened.let_out() && scene.outlet.is_empty()).then(|| {
         format!(
             "fluid comes in and none can leave: where there is no room over a free surface the pressure will rise until the run \

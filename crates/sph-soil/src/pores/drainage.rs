@@ -32,7 +32,7 @@ pub(crate) struct Drainage {
     pub supply: Option<(u32, Supply)>,
     /// Stiffness of the contacts, Pa.
     pub contacts: f64,
-    solver: ConjugateGradient,
+    solver: ConjugateGradient<1>,
 }
 
 /// Stiffness of the contacts over ρ₀c²: soils whose sound is ten times faster than √(gH) are compressed by 10⁻³.

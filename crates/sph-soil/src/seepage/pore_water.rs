@@ -26,7 +26,7 @@ struct Columns<'a, const D: usize> {
 pub(crate) struct Seeps<const D: usize> {
     pub resistance: PoreResistance,
     pub phase: Phase,
-    pub solver: ConjugateGradient,
+    pub solver: ConjugateGradient<1>,
     pub exchange: Exchange,
     /// The scalar that the formulation integrates for the density.
     pub density: Field<Scalar>,

@@ -172,7 +172,10 @@ impl<const D: usize> Contribution<D> for Laplace {
 }
 
 /// The solver of systems of soils.
-pub(crate) fn conjugate_gradient(tolerance: f64, iterations: usize) -> ConjugateGradient {
+pub(crate) fn conjugate_gradient<const D: usize>(
+    tolerance: f64,
+    iterations: usize,
+) -> ConjugateGradient<D> {
     ConjugateGradient {
         preconditioner: Preconditioner::IncompleteDiagonal,
         tolerance,

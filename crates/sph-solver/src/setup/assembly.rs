@@ -37,6 +37,7 @@ impl<const D: usize> Flow<D> {
             terms: planned.terms,
             kinds: planned.kinds,
             remedies: planned.remedies,
+            solves: offer.solves,
             limiters: offer.limiters,
             inner_bounds: offer.inner_bounds,
             walls: None,

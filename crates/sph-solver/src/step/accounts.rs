@@ -1,11 +1,11 @@
 //! Opens the energy budget where a probe reads it.
 
-use sph_contribution::integrators::Integrator;
+use sph_contribution::integrators::{Integrator, IntegratorEntry};
+use sph_core::Contract;
 use sph_multiphase::Formulation;
 use sph_probes::Probe;
 use sph_scene::Scene;
 
-use crate::defaults;
 use crate::error::SolverError;
 use crate::setup::choices::own_accounts;
 use crate::step::energy_budget::EnergyBudget;
@@ -29,7 +29,7 @@ pub fn open<const D: usize>(
     let goes = !flow.outlets.labels().is_empty();
     let why = match (integrator.kicks_once(), comes || goes) {
         (false, _) => {
-            let take = defaults::ONE_KICK;
+            let take = IntegratorEntry::KIND.advice();
             format!("energy is booked for steps of one kick and one drift: take {take}")
         }
         (_, true) => {

@@ -29,9 +29,6 @@ const CLASSES: [EnergyWork; 6] = [
     EnergyWork::Others,
 ];
 
-/// Classes with those of strangers; the terms of further strangers are booked as those of others.
-const MOST: usize = CLASSES.len() + 3;
-
 /// The account of the work of a kind's terms; none of the pressure's.
 fn of_terms(kind: &str) -> Option<Account> {
     Some(match kind_of(kind).map(|kind| kind.work) {
@@ -63,6 +60,7 @@ pub struct EnergyBudget<const D: usize> {
     laws: Laws,
     /// The account of every term, by its name; none: the pressure.
     terms: Vec<(String, Option<Account>)>,
+    /// [`CLASSES`] and those of strangers.
     classes: Vec<Account>,
     hooks: Vec<Account>,
     kicker: Option<usize>,
@@ -73,8 +71,8 @@ pub struct EnergyBudget<const D: usize> {
     /// Changes of velocities in this kick by work, m/s, and to densities, kg/m³.
     turns: Vec<(Account, Vec<Vect<D>>)>,
     changes: Vec<(Account, Vec<f64>)>,
-    /// Rates of all classes before the kick.
-    rates: Vec<[ClassRate<D>; MOST]>,
+    /// Rates of all classes before the kick, those of a particle together.
+    rates: Vec<ClassRate<D>>,
     /// The integrated quantity of the formulation, as booked.
     scalar: Vec<f64>,
     /// Densities as booked, kg/m³.
@@ -140,10 +138,7 @@ impl<const D: usize> EnergyBudget<D> {
             terms: (flow.kinds.iter())
                 .map(|(name, kind)| (name.clone(), of_terms(kind)))
                 .collect(),
-            classes: (CLASSES.map(own).into_iter())
-                .chain(strange())
-                .take(MOST)
-                .collect(),
+            classes: CLASSES.map(own).into_iter().chain(strange()).collect(),
             hooks: (flow.hooks.all.iter())
                 .map(|hook| of_hooks(hook.kind))
                 .collect(),
@@ -193,7 +188,7 @@ impl<const D: usize> EnergyBudget<D> {
             class(work).or_else(|| class(others))
         };
         let terms: Vec<_> = terms.iter().map(|t| &**t).collect();
-        self.rates = class_rates(world, &terms, class)?;
+        self.rates = class_rates(world, &terms, self.classes.len(), class)?;
         let free = &world.free;
         free.get(fields::VELOCITY)?.clone_into(&mut self.before);
         free.get(fields::DENSITY)?.clone_into(&mut self.density);
@@ -250,13 +245,13 @@ impl<const D: usize> EnergyBudget<D> {
         let n = mean.len();
         let mass = world.free.get(fields::MASS)?.to_vec();
         let work = |i: usize, gain: Vect<D>| mass[i] * gain.dot(&mean[i]);
-        let rates = &self.rates;
+        let rates = |i: usize| &self.rates[i * self.classes.len()..][..self.classes.len()];
         for (class, of) in self.classes.iter().enumerate() {
             let steady = match *of == own(EnergyWork::Others) {
                 true => world.driving + (world.gravity - world.steady_gravity),
                 false => Vect::zeros(),
             };
-            let done = per_particle(n, |i| work(i, (rates[i][class].acceleration + steady) * dt));
+            let done = per_particle(n, |i| work(i, (rates(i)[class].acceleration + steady) * dt));
             add_work(world, *of, &done)?;
         }
         for (of, turn) in std::mem::take(&mut self.turns) {
@@ -268,7 +263,7 @@ impl<const D: usize> EnergyBudget<D> {
         let acceleration = free.get(fields::ACCELERATION)?;
         let compressed = per_particle(n, |i| -volume[i] * pressure[i] * dilatation[i] * dt);
         let pushed = per_particle(n, |i| {
-            let others = self.rates[i].iter().map(|rate| rate.acceleration);
+            let others = rates(i).iter().map(|rate| rate.acceleration);
             let push = acceleration[i] - world.gravity - world.driving - others.sum::<Vect<D>>();
             work(i, push * dt) + compressed[i]
         });
@@ -288,9 +283,9 @@ impl<const D: usize> EnergyBudget<D> {
         let changes = std::mem::take(&mut self.changes);
         if world.free.has(self.diffused.evolved.rate.name) {
             for (class, of) in self.classes.clone().into_iter().enumerate() {
-                let rates = &self.rates;
-                if rates.iter().any(|rates| rates[class].scalar != 0.0) {
-                    let change = per_particle(rates.len(), |i| rates[i][class].scalar * dt);
+                let rates = self.rates.iter().skip(class).step_by(self.classes.len());
+                if rates.clone().any(|rate| rate.scalar != 0.0) {
+                    let change: Vec<f64> = rates.map(|rate| rate.scalar * dt).collect();
                     self.condensed(world, of, &change)?;
                 }
             }

@@ -91,6 +91,8 @@ pub struct Flow<const D: usize> {
     pub kinds: Vec<(String, &'static str)>,
     /// Remedies where a term of a kind has thrown a particle about, by the kind, or a stage failed, by its name.
     pub remedies: Vec<(&'static str, String)>,
+    /// Names of stages and hooks that are cheaper with a looser tolerance of their solver.
+    pub solves: Vec<String>,
     /// Time spent per stage and service since the assembly.
     pub timings: Vec<Timing>,
     /// The change of gravity, if there is one.

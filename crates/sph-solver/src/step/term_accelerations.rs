@@ -1,7 +1,7 @@
 //! Accelerations by class of terms, in columns that an output or a probe names.
 
 use sph_core::{Field, Role, StepError, Vect, Vector, Work, kind_of};
-use sph_neighbours::{ClassRate, class_rates};
+use sph_neighbours::class_rates;
 
 use crate::step::flow::Flow;
 use crate::step::hooks::{Boundary, ObservedFlow, Observer};
@@ -69,9 +69,10 @@ impl<const D: usize> Observer<D> for TermAccelerations {
             Some(known.map_or(COLUMNS.len() - 1, |(_, class)| *class))
         };
         let world = &mut *seen.world;
-        let rates: Vec<[ClassRate<D>; COLUMNS.len()]> = class_rates(world, &terms, class)?;
+        let rates = class_rates(world, &terms, COLUMNS.len(), class)?;
         for k in &self.columns {
-            let all: Vec<Vect<D>> = rates.iter().map(|of| of[*k].acceleration).collect();
+            let own = rates.iter().skip(*k).step_by(COLUMNS.len());
+            let all: Vec<Vect<D>> = own.map(|rate| rate.acceleration).collect();
             *world.free.get_mut(COLUMNS[*k].0)? = all;
         }
         Ok(())

@@ -119,6 +119,7 @@ impl<const D: usize> Contribution<D> for Friction<D> {
         };
         let coupling = operator.coupling(viscosity);
         offer.outside.push(operator.term(viscosity).into());
+        offer.solves.push(ImplicitViscosity::<D>::NAME.into());
         offer.hook(ImplicitViscosity::new(coupling, solve, lagged));
         Ok(())
     }
