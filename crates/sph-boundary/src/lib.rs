@@ -64,8 +64,7 @@ pub use crate::{
     rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Spring, Touch},
     rigid::rigid_state::{Movement, RigidState},
     treatment::contract::{
-        ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
-        WallStates,
+        ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
     },
     treatment::dummy::DummyParticles,
     treatment::symmetric::Symmetric,

@@ -21,6 +21,10 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+// Attributes of parameters name this crate.
+#[cfg(feature = "plugins")]
+extern crate self as sph_core;
+
 #[cfg(feature = "plugins")]
 mod axis;
 pub mod bed;
@@ -62,6 +66,8 @@ mod symmetric;
 #[cfg(feature = "plugins")]
 mod turnover;
 #[cfg(feature = "plugins")]
+mod wall_condition;
+#[cfg(feature = "plugins")]
 mod watch;
 mod winding;
 
@@ -95,6 +101,7 @@ pub use crate::{
     },
     stage::{Access, Declares, Stage, stage},
     store::{Inserted, Plain, Removed, Role, Store},
+    wall_condition::{FrictionForm, SlipCondition, WallCondition},
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::Vect;
 use sph_core::bed::Bed;
+use sph_core::{FrictionForm, Vect};
 use sph_kernels::Sampler;
-use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
+use sph_neighbours::{
+    Coulomb, Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet,
+};
 
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
@@ -286,7 +288,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
         let slips = self.slips();
-        let rubs = |s: &WallSpec<D>| s.condition.coulomb().coefficient > 0.0;
+        let rubs = |s: &WallSpec<D>| s.condition.friction_coefficient > Some(0.0);
         let rubs = self.specs.iter().any(rubs);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
@@ -300,7 +302,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 elements.slip.push(condition.slip_length());
             }
             if rubs {
-                elements.coulomb.push(condition.coulomb());
+                elements.coulomb.push(Coulomb {
+                    coefficient: condition.friction_coefficient.unwrap_or(0.0),
+                    literal: condition.friction_form == Some(FrictionForm::Literal),
+                });
             }
         }
         let count = elements.centre.len();

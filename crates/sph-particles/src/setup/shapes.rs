@@ -4,13 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sph_boundary::{
-    Bend, BoundaryError, Course, Drawing, Erodible, Polyline, RigidMotion, Surface, WallCondition,
-    WallSpec, thin_plate,
+    Bend, BoundaryError, Course, Drawing, Erodible, Polyline, RigidMotion, Surface, WallSpec,
+    thin_plate,
 };
 use sph_core::plausible::Quantity;
 use sph_core::{Vect, suggestion, unit_factor};
-use sph_neighbours::Coulomb;
-use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene, SlipCondition};
+use sph_scene::{Facets, Levels, Line, Region, Scene};
 use sph_solver::SolverError;
 
 /// Most corners of lines, or facets of surfaces, of all walls.
@@ -59,17 +58,6 @@ impl<const D: usize> Drawn<D> {
                 },
             };
             motion.bed = bed_of(scene, name, wall, &mut beds);
-            let condition = match wall.condition {
-                SlipCondition::NoSlip => WallCondition::NoSlip,
-                SlipCondition::FreeSlip => WallCondition::FreeSlip,
-                SlipCondition::PartialSlip => WallCondition::PartialSlip {
-                    length: wall.slip_length.unwrap_or(0.0),
-                },
-                SlipCondition::Coulomb => WallCondition::Coulomb(Coulomb {
-                    coefficient: wall.friction_coefficient.unwrap_or(0.0),
-                    literal: wall.friction_form == Some(FrictionForm::Literal),
-                }),
-            };
             let surface = wall.velocity.as_deref();
             let surface_velocity = surface.map_or_else(Vect::zeros, Vect::from_column_slice);
             for drawing in drawn.drawings(scene, name, wall, &place)? {
@@ -83,7 +71,7 @@ impl<const D: usize> Drawn<D> {
                 drawn.near(scene.numerics.spacing, &place)?;
                 drawn.walls.push(WallSpec {
                     drawing,
-                    condition,
+                    condition: wall.condition,
                     surface_velocity,
                     motion: motion.clone(),
                     mover: None,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use scene_text::given;
-use sph_core::parameters;
+use sph_core::{WallCondition, parameters};
 
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body::BodyShape;
@@ -71,18 +71,9 @@ pub struct Wall {
     /// round.
     #[parameter(default)]
     pub align: bool,
-    /// Condition of the fluid at the wall: it sticks or slips.
-    #[parameter(default)]
-    pub condition: SlipCondition,
-    /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
-    #[parameter(unit: "m", above: 0.0)]
-    pub slip_length: Option<f64>,
-    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times their load on
-    /// the wall.
-    #[parameter(unit: "1", min: 0.0)]
-    pub friction_coefficient: Option<f64>,
-    /// Distribution of that friction, for `condition = "coulomb"`.
-    pub friction_form: Option<FrictionForm>,
+    /// Condition of the fluid at the wall.
+    #[serde(flatten)]
+    pub condition: WallCondition,
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
     #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
@@ -108,30 +99,6 @@ pub struct Wall {
     /// File and line in which its table begins, set when the scene is read.
     #[serde(skip)]
     pub place: Option<String>,
-}
-
-/// Condition of a wall for the velocity along it.
-#[parameters]
-pub enum SlipCondition {
-    /// The fluid moves with the wall.
-    #[default]
-    NoSlip,
-    /// The fluid slides along the wall without friction.
-    FreeSlip,
-    /// The fluid slides with friction: its velocity relative to the wall is the slip length times its gradient.
-    PartialSlip,
-    /// Soils slide with Coulomb's friction, other fluids without any.
-    Coulomb,
-}
-
-/// Distribution of Coulomb's friction at a wall among the particles.
-#[parameters]
-pub enum FrictionForm {
-    /// All of it: the coefficient times the force on the wall.
-    #[default]
-    Normalised,
-    /// As printed (Ghaïtanellis 2017, Eq. 4.118): a quarter to a third of it arrives.
-    Literal,
 }
 
 /// On which side of a closed geometry the fluid is.

@@ -1,8 +1,9 @@
 //! How walls move.
 
 use super::common::{scene, with};
+use sph_core::SlipCondition;
 use sph_core::course::{Course, Translation};
-use sph_scene::{Courses, SlipCondition};
+use sph_scene::Courses;
 use tempfile::tempdir;
 
 fn courses(folder: &std::path::Path, motion: &str) -> Result<Courses<2>, String> {
@@ -74,7 +75,7 @@ fn courses_come_from_files() {
 fn partial_slip_has_a_length() {
     let folder = tempdir().unwrap();
     let text = "box = [[0, 0], [1, 1]]\ncondition = \"partial-slip\"\nslip_length = \"2 cm\"";
-    let wall = &scene(folder.path(), 2, text).wall["w"];
+    let found = scene(folder.path(), 2, text).wall["w"].condition;
     let slip = (SlipCondition::PartialSlip, Some(0.02));
-    assert_eq!((wall.condition, wall.slip_length), slip);
+    assert_eq!((found.slip, found.slip_length), slip);
 }
