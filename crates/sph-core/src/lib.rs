@@ -66,7 +66,7 @@ mod symmetric;
 #[cfg(feature = "plugins")]
 mod turnover;
 #[cfg(feature = "plugins")]
-mod wall_condition;
+mod walls;
 #[cfg(feature = "plugins")]
 mod watch;
 mod winding;
@@ -101,7 +101,7 @@ pub use crate::{
     },
     stage::{Access, Declares, Stage, stage},
     store::{Inserted, Plain, Removed, Role, Store},
-    wall_condition::{FrictionForm, SlipCondition, WallCondition},
+    walls::{Erodible, FrictionForm, SlipCondition, WallCondition},
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{

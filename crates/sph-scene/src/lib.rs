@@ -81,7 +81,7 @@ pub use tables::output::Output;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
 pub use tables::wall::{
-    ConeWall, CylinderWall, DiscWall, Erodible, ExtrusionWall, Face, FluidSide, Rotate, SphereWall,
-    Wall, Wedge,
+    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, FluidSide, Rotate, SphereWall, Wall,
+    Wedge,
 };
 pub use tables::wave::{Heading, LevelSurface, Wave, WaveKind};

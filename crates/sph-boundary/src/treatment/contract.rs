@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use sph_core::{
-    AnyField, FlowNature, StepError, SuitedPlugin, Vect, WallCondition, Work, contract,
+    AnyField, Erodible, FlowNature, StepError, SuitedPlugin, Vect, WallCondition, Work, contract,
 };
 use sph_kernels::Kernel;
 use sph_neighbours::{DepthGauge, Domain, WallSet, World};
@@ -22,6 +22,8 @@ pub struct WallSpec<const D: usize> {
     pub surface_velocity: Vect<D>,
     /// Motion of the wall.
     pub motion: RigidMotion<D>,
+    /// Its grains, if its surface is a bed: with a cell and a height to stretch.
+    pub erodible: Option<Erodible>,
     /// Its mover, with the force of the fluid.
     pub mover: Option<Arc<dyn Mover<D>>>,
     /// True if fluid passes it: it stops no particle.
@@ -36,6 +38,7 @@ impl<const D: usize> WallSpec<D> {
             condition: WallCondition::default(),
             surface_velocity: Vect::zeros(),
             motion: RigidMotion::default(),
+            erodible: None,
             mover: None,
             open: false,
         }

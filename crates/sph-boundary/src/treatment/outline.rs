@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sph_core::bed::Bed;
-use sph_core::{FrictionForm, Vect};
+use sph_core::{Erodible, FrictionForm, Vect};
 use sph_kernels::Sampler;
 use sph_neighbours::{
     Coulomb, Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet,
@@ -60,7 +60,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self> {
         let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
         for spec in whole.map(|k| &setup.walls[k]) {
-            if !spec.motion.is_sound() {
+            let sound = spec.erodible.iter().all(Erodible::is_sound);
+            if !(spec.motion.is_sound() && sound) {
                 return Err(BoundaryError::motion(spec.drawing.name()));
             }
             let slip = spec.condition.slip_length();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use scene_text::given;
-use sph_core::{WallCondition, parameters};
+use sph_core::{Erodible, WallCondition, parameters};
 
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body::BodyShape;
@@ -152,29 +152,6 @@ impl Wall {
         };
         Some(self.fluid.unwrap_or(default))
     }
-}
-
-/// Grains that a wall is made of, so far as it faces upwards: a law of [bed load](https://docs.rs/sph-soil) raises and lowers it.
-///
-/// A bed that is a part of its wall ends where grains come and go, as many as the flow carries there; a whole wall keeps its
-/// grains.
-#[parameters]
-pub struct Erodible {
-    /// Distance of the places at which the level is known, m; the spacing if left out.
-    #[parameter(unit: "m", above: 0.0)]
-    pub cell: Option<f64>,
-    /// Start of the bed along x, in three dimensions along x and y, m; `-inf` or left out for as far as the wall goes.
-    #[parameter(unit: "m", min_items: 1)]
-    pub from: Option<Vec<f64>>,
-    /// End of the bed, m; `inf` or left out for as far as the wall goes.
-    #[parameter(unit: "m", min_items: 1)]
-    pub to: Option<Vec<f64>>,
-    /// Level under which there are no grains, m; grains without end if left out.
-    #[parameter(unit: "m")]
-    pub rock: Option<f64>,
-    /// Height over the bed within which walls that stand in it stretch, m; ten spacings if left out.
-    #[parameter(unit: "m", above: 0.0)]
-    pub stretch: Option<f64>,
 }
 
 /// A face of a box, or a direction along an axis.
