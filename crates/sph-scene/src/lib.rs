@@ -53,7 +53,6 @@ mod reading;
 mod tables;
 
 pub use filling::{BodyParticles, Offset, disturb, estimate, fill, noise};
-pub use geometry::course::Courses;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;

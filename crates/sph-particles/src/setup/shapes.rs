@@ -177,19 +177,19 @@ pub fn rigid_motion<const D: usize>(
     place: &str,
     end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
-    let mut courses = motion.courses(place)?;
-    let shifts = courses.translations.iter_mut().map(|t| &mut t.course);
-    let turns = courses.rotation.iter_mut().map(|r| &mut r.course);
+    let (mut translations, mut rotation) = motion.courses(place)?;
+    let shifts = translations.iter_mut().map(|t| &mut t.course);
+    let turns = rotation.iter_mut().map(|r| &mut r.course);
     for course in shifts.chain(turns) {
         if let Course::Table { rows } = course {
-            *rows = going_on(rows.to_vec(), end - courses.start).into();
+            *rows = going_on(rows.to_vec(), end - motion.start).into();
         }
     }
     Ok(RigidMotion {
-        translations: courses.translations,
-        rotation: courses.rotation,
-        start: courses.start,
-        stop: courses.stop,
+        translations,
+        rotation,
+        start: motion.start,
+        stop: motion.stop.unwrap_or(f64::INFINITY),
         ..RigidMotion::default()
     })
 }
