@@ -86,8 +86,8 @@ pub use crate::{
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, StepLimit, System},
     field::{
-        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
-        unit_suffix,
+        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, labelled,
+        some_unit, unit_suffix,
     },
     field_list::FieldList,
     kinds::{
