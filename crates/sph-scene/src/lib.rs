@@ -63,7 +63,7 @@ pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
-    Diagnostic, Origin, Override, PictureRange, Source, given, read_text, within,
+    Diagnostic, Origin, Override, PictureRange, Source, given, named_files, read_text, within,
 };
 pub use tables::body::{
     Body, BodyShape, Cone, Cylinder, Ellipse, Extrusion, Filling, Phase, Pressure, Round,
