@@ -10,8 +10,8 @@ use crate::reading::limits::TIMES;
 use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};
 
 impl Motion {
-    /// Translations along unit vectors, which add up, and the rotation about a unit vector, (0, 0, 1) in 2D; `velocity` and
-    /// `angular_velocity` are among them, and files read.
+    /// Translations along unit vectors, which add up, and the rotation about a unit vector, (0, 0, 1) in 2D;
+    /// `velocity` and `angular_velocity` are among them, and files read.
     ///
     /// `place` is the path of the motion in the scene: `wall.gate.motion`.
     ///
