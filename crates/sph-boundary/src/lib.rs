@@ -54,7 +54,7 @@ pub use geometry::surface::{Drawing, Surface};
 pub use integrals::GammaSum;
 pub use integrals::gamma::{Contact, Renormalisation2d, SegmentBatch, SegmentIntegral};
 pub use integrals::spatial::{FacetIntegral, Renormalisation3d, Weights};
-pub use rigid::motion::{Bend, Erodible, RigidMotion};
+pub use rigid::motion::{Bend, RigidMotion};
 pub use rigid::pose::Pose;
 pub use sph_core::course::{Course, Rotation, SinePart, Stage, Translation};
 
@@ -64,8 +64,7 @@ pub use crate::{
     rigid::mover::{Load, Mover, MoverEntry, MoverRefusal, MoverSetting, Spring, Touch},
     rigid::rigid_state::{Movement, RigidState},
     treatment::contract::{
-        ThinWall, Wall, WallCondition, WallEntry, WallMotion, WallSetup, WallShape, WallSpec,
-        WallStates,
+        ThinWall, Wall, WallEntry, WallMotion, WallSetup, WallShape, WallSpec, WallStates,
     },
     treatment::dummy::DummyParticles,
     treatment::symmetric::Symmetric,

@@ -227,6 +227,11 @@ pub fn unit_suffix(unit: &str) -> String {
     some_unit(unit).map_or(String::new(), |unit| format!(" {unit}"))
 }
 
+/// A name with its unit in brackets, which pure numbers lack.
+pub fn labelled(name: &str, unit: &str) -> String {
+    some_unit(unit).map_or_else(|| name.to_string(), |unit| format!("{name} [{unit}]"))
+}
+
 /// The unit, unless it is that of pure numbers.
 pub fn some_unit(unit: &str) -> Option<&str> {
     Some(unit).filter(|unit| !["", "1"].contains(unit))

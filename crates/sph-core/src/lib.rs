@@ -22,6 +22,10 @@
 //! assert_eq!(store.get(DENSITY).unwrap(), [1000.0; 3]);
 //! ```
 
+// Attributes of parameters name this crate.
+#[cfg(feature = "plugins")]
+extern crate self as sph_core;
+
 #[cfg(feature = "plugins")]
 mod axis;
 pub mod bed;
@@ -64,6 +68,8 @@ mod symmetric;
 #[cfg(feature = "plugins")]
 mod turnover;
 #[cfg(feature = "plugins")]
+mod walls;
+#[cfg(feature = "plugins")]
 mod watch;
 mod winding;
 
@@ -83,8 +89,8 @@ pub use crate::{
     error::{FieldError, PlanError, RegistryError, StepError},
     evolve::{Evolved, Recall, StepLimit, System},
     field::{
-        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, some_unit,
-        unit_suffix,
+        AnyField, Field, Index, Kind, Scalar, Shape, SymmetricTensor, Tensor, Vector, labelled,
+        some_unit, unit_suffix,
     },
     field_list::FieldList,
     kinds::{
@@ -98,6 +104,7 @@ pub use crate::{
     },
     stage::{Access, Declares, Stage, stage},
     store::{Inserted, Plain, Removed, Role, Store},
+    walls::{Erodible, FrictionForm, SlipCondition, WallCondition},
 };
 #[cfg(feature = "plugins")]
 pub use scene_text::{

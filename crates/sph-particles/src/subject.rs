@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde_json::{Value as Json, json};
 use sph_core::SceneProblem;
 use sph_io::IoError;
-use sph_run::{Ended, FileMark, Identity, Method, RunOptions, Subject, Watch, unusable};
+use sph_run::{Ended, Identity, Method, RunOptions, Subject, Watch, marks, unusable};
 use sph_scene::{Diagnostic, Loaded, Source, read};
 use sph_solver::SolverError;
 use toml::Table;
@@ -46,11 +46,6 @@ impl Subject for Scene {
 
     fn resolved(&self) -> Table {
         self.0.resolved()
-    }
-
-    fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
-        let each = |mark: FileMark| (mark.key, mark.content.to_string());
-        Ok(marks(&self.0)?.into_iter().map(each).collect())
     }
 
     fn end(&self) -> f64 {
@@ -98,9 +93,6 @@ fn known(error: &RunError) -> Json {
     known
 }
 
-/// Longest file that a scene may name, bytes: that of a triangle mesh.
-const LONGEST: u64 = 512 << 20;
-
 /// That of a scene: its text, its overrides, and the content of every file that it names.
 ///
 /// # Errors
@@ -111,18 +103,7 @@ pub fn identity(loaded: &Loaded) -> Result<Identity, SolverError> {
     let set = set.map(|o| format!("\n--set {}", &o.text));
     let text = std::iter::once(source.text().to_string()).chain(set);
     Ok(Identity {
-        files: marks(loaded)?,
+        files: marks(source, &loaded.resolved())?,
         ..Identity::of_text(text.collect::<String>())
     })
-}
-
-/// Every file that a scene names, with its contents.
-fn marks(loaded: &Loaded) -> Result<Vec<FileMark>, SceneProblem> {
-    let mark = |(key, file): (String, String)| {
-        let at_key = |why: String| SceneProblem::new(key.clone(), why);
-        let path = loaded.source.resolve(&key, &file).map_err(at_key)?;
-        let content = sph_io::checksum(&path, LONGEST).map_err(|e| at_key(e.to_string()))?;
-        Ok(FileMark { content, key, file })
-    };
-    loaded.files().into_iter().map(mark).collect()
 }

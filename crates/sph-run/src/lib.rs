@@ -20,7 +20,7 @@ mod subject;
 pub use drive::{Opened, run};
 pub use frames::{BAD_STATE, BAD_STATE_NEAR, BAD_STATE_PICTURE, Frames, Outlay};
 pub use model::{Command, Model, Observer, Poll, Progress, RunCounters, Status, Trouble, Watch};
-pub use options::{CHECKPOINT, FileMark, Identity, RunOptions, SERIES, SUMMARY, Start};
+pub use options::{CHECKPOINT, FileMark, Identity, RunOptions, SERIES, SUMMARY, Start, marks};
 pub use schedule::{Schedule, next_multiple};
 pub use state::{SavedState, save_state};
 pub use subject::{Ended, Method, Subject, unusable};

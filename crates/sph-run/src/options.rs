@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use scene_text::{SceneProblem, Source, named_files};
 use serde::{Deserialize, Serialize};
 use sph_io::Checksum;
+use toml::Table;
 
 /// Version of the program.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -63,6 +65,23 @@ impl Identity {
             None => Some("it was written by an earlier version of sph".into()),
         }
     }
+}
+
+/// Longest file that a scene may name, bytes: that of a triangle mesh.
+const LONGEST: u64 = 512 << 20;
+
+/// Every file that a scene names, with its content; the table is that of the whole scene.
+///
+/// # Errors
+/// A file that cannot be read, at its key.
+pub fn marks(source: &Source, resolved: &Table) -> Result<Vec<FileMark>, SceneProblem> {
+    let mark = |(key, file): (String, String)| {
+        let at_key = |why: String| SceneProblem::new(key.clone(), why);
+        let path = source.resolve(&key, &file).map_err(at_key)?;
+        let content = sph_io::checksum(&path, LONGEST).map_err(|e| at_key(e.to_string()))?;
+        Ok(FileMark { content, key, file })
+    };
+    named_files(resolved).into_iter().map(mark).collect()
 }
 
 /// The files that have changed.

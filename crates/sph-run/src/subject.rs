@@ -35,12 +35,6 @@ pub trait Subject: Debug + Send + Sync {
     /// The scene as a table, quantities in SI: two scenes with the same table are the same.
     fn resolved(&self) -> Table;
 
-    /// Every file that it names: the key, and a short text that changes with the content.
-    ///
-    /// # Errors
-    /// A file that cannot be read, at its key.
-    fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem>;
-
     /// Simulated time at the end, s.
     fn end(&self) -> f64;
 

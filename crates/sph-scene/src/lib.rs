@@ -53,7 +53,6 @@ mod reading;
 mod tables;
 
 pub use filling::{BodyParticles, Offset, disturb, estimate, fill, noise};
-pub use geometry::course::Courses;
 pub use geometry::outlines::Line;
 pub use geometry::polygon::Polygon;
 pub use geometry::region::Region;
@@ -65,7 +64,7 @@ pub use reading::plugins::Plugins;
 pub use reading::schema::{schema, unit};
 pub use scene_text::surface::{Facets, Topology};
 pub use scene_text::{
-    Diagnostic, Origin, Override, PictureRange, Source, given, read_text, within,
+    Diagnostic, Origin, Override, PictureRange, Source, given, named_files, read_text, within,
 };
 pub use tables::body::{
     Body, BodyShape, Cone, Cylinder, Ellipse, Extrusion, Filling, Phase, Pressure, Round,
@@ -82,7 +81,7 @@ pub use tables::output::Output;
 pub use tables::reference::{Norm, Reference};
 pub use tables::scene::{OFF_LATTICE, Scene};
 pub use tables::wall::{
-    ConeWall, CylinderWall, DiscWall, Erodible, ExtrusionWall, Face, FluidSide, FrictionForm,
-    Rotate, SlipCondition, SphereWall, Wall, Wedge,
+    ConeWall, CylinderWall, DiscWall, ExtrusionWall, Face, FluidSide, Rotate, SphereWall, Wall,
+    Wedge,
 };
 pub use tables::wave::{Heading, LevelSurface, Wave, WaveKind};

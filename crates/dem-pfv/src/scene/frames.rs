@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nalgebra::Matrix3;
-use sph_core::bounds;
+use sph_core::{bounds, labelled};
 use sph_io::{Cells, FieldData, Picture, Piece, View};
 
 use crate::coupled::CoupledSystem;
@@ -159,11 +159,7 @@ pub fn picture(
     let points = points(system);
     let values = values(field, model, origin);
     let diameters: Vec<f64> = system.grains.radius.iter().map(|r| 2.0 * r).collect();
-    let name = field.replace('_', " ");
-    let label = match unit(field) {
-        "" => name,
-        unit => format!("{name} [{unit}]"),
-    };
+    let label = labelled(&field.replace('_', " "), unit(field));
     let walls = walls(system, &points);
     let picture = Picture {
         title,

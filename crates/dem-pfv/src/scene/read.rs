@@ -57,11 +57,6 @@ fn loaded(source: &Source) -> Result<(Scene, toml::Table), Vec<Diagnostic>> {
 }
 
 impl Loaded {
-    /// Every file that the scene names, as it names it, with the key that does.
-    pub fn files(&self) -> Vec<(String, String)> {
-        named_files(&self.table)
-    }
-
     /// The path of a file that a key of the scene names.
     pub(crate) fn resolve(&self, key: &str, file: &str) -> Result<PathBuf, DemError> {
         let path = self.source.resolve(key, file);
@@ -118,7 +113,7 @@ impl Loaded {
             let message = format!("there is no file `{}`", path.display());
             (!path.is_file()).then(|| SceneProblem::new(key, message))
         };
-        let files = self.files().into_iter();
+        let files = named_files(&self.table).into_iter();
         let mut problems: Vec<_> = files.filter_map(missing).collect();
         // Nothing is read from a file that is missing.
         let whole = problems.is_empty();

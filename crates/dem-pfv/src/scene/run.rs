@@ -280,9 +280,6 @@ impl Running<'_> {
     }
 }
 
-/// Longest file that a scene may name, bytes.
-const LONGEST: u64 = 512 << 20;
-
 /// Discrete elements, with or without a fluid in their pores.
 #[derive(Clone, Copy, Debug)]
 pub struct DiscreteElements;
@@ -308,17 +305,6 @@ impl Subject for Loaded {
 
     fn resolved(&self) -> Table {
         self.table.clone()
-    }
-
-    fn marks(&self) -> Result<Vec<(String, String)>, SceneProblem> {
-        let mark = |(key, file): (String, String)| {
-            let told = |why: String| SceneProblem::new(key.clone(), why);
-            let path = self.source.resolve(&key, &file);
-            let path = path.map_err(|e| told(e.to_string()))?;
-            let content = sph_io::checksum(&path, LONGEST).map_err(|e| told(e.to_string()))?;
-            Ok((key, content.to_string()))
-        };
-        self.files().into_iter().map(mark).collect()
     }
 
     fn end(&self) -> f64 {

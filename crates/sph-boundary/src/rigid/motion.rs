@@ -22,8 +22,8 @@ pub struct RigidMotion<const D: usize = 2> {
     /// Bending of the wall; it counts its time from 0. It leaves the wall where translations and rotation put it, so
     /// have one or the other.
     pub bend: Option<Arc<Bend>>,
-    /// The bed of grains whose levels the wall follows, instead of all else.
-    pub bed: Option<Arc<Erodible>>,
+    /// Name of the wall whose bed of grains the wall follows, instead of all else.
+    pub bed: Option<String>,
     /// Start, s; the courses count from here.
     pub start: f64,
     /// Stop, s.
@@ -88,7 +88,6 @@ impl<const D: usize> RigidMotion<D> {
         self.translations.iter().all(sound)
             && self.rotation.iter().all(turns)
             && self.bend.iter().all(|b| D == 2 && b.is_sound())
-            && self.bed.iter().all(|bed| bed.is_sound())
             && self.start.is_finite()
             && !self.stop.is_nan()
     }
@@ -227,34 +226,6 @@ impl Bend {
             && places.iter().all(|x| x.is_finite())
             && places.windows(2).all(|p| p[0] < p[1])
             && self.lifts.iter().all(Course::is_sound)
-    }
-}
-
-/// A wall whose surface is a bed of grains: the data to lay its [`Bed`](sph_core::bed::Bed). Walls that stand in the
-/// bed have the same.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Erodible {
-    /// Name of the wall whose surface is the bed.
-    pub wall: String,
-    /// Distance of the places at which the level is known, m.
-    pub cell: f64,
-    /// Start of the bed along x and y, m; −∞ for as far as the wall goes.
-    pub from: [f64; 2],
-    /// End of the bed, m; ∞ for as far as the wall goes.
-    pub to: [f64; 2],
-    /// The level under which there are no grains, m; −∞ without.
-    pub rock: f64,
-    /// Height over the bed within which walls that stand in it stretch, m.
-    pub fade: f64,
-}
-
-impl Erodible {
-    /// True if all its numbers are possible.
-    #[must_use]
-    pub fn is_sound(&self) -> bool {
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        let ordered = (0..2).all(|k| self.from[k] < self.to[k]);
-        positive(self.cell) && positive(self.fade) && ordered && self.rock < f64::INFINITY
     }
 }
 

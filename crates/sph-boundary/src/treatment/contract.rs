@@ -3,54 +3,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use sph_core::{AnyField, FlowNature, StepError, SuitedPlugin, Vect, Work, contract};
+use sph_core::{
+    AnyField, Erodible, FlowNature, StepError, SuitedPlugin, Vect, WallCondition, Work, contract,
+};
 use sph_kernels::Kernel;
-use sph_neighbours::{Coulomb, DepthGauge, Domain, WallSet, World};
+use sph_neighbours::{DepthGauge, Domain, WallSet, World};
 
 use crate::{Drawing, Mover, Result, RigidMotion};
-
-/// Condition of the fluid at a wall.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum WallCondition {
-    /// The fluid sticks to the wall.
-    #[default]
-    NoSlip,
-    /// The wall exerts no friction.
-    FreeSlip,
-    /// The fluid slides as if it stuck to a wall this far behind the real one: u_t = λ ∂u_t/∂n (Navier's condition).
-    PartialSlip {
-        /// Slip length λ, m.
-        length: f64,
-    },
-    /// Soils slide with Coulomb's friction; other fluids slip freely.
-    Coulomb(Coulomb),
-}
-
-impl WallCondition {
-    /// 1 where the wall rubs, 0 where it slips freely.
-    pub fn friction_factor(&self) -> f64 {
-        match self {
-            Self::FreeSlip | Self::Coulomb(_) => 0.0,
-            Self::NoSlip | Self::PartialSlip { .. } => 1.0,
-        }
-    }
-
-    /// Slip length, m; 0 if the fluid sticks.
-    pub fn slip_length(&self) -> f64 {
-        match self {
-            Self::PartialSlip { length } => *length,
-            Self::NoSlip | Self::FreeSlip | Self::Coulomb(_) => 0.0,
-        }
-    }
-
-    /// Friction of soils.
-    pub fn coulomb(&self) -> Coulomb {
-        match self {
-            Self::Coulomb(coulomb) => *coulomb,
-            _ => Coulomb::default(),
-        }
-    }
-}
 
 /// One named wall; a wall drawn in several pieces is several of these with one name.
 #[derive(Clone, Debug)]
@@ -63,6 +22,8 @@ pub struct WallSpec<const D: usize> {
     pub surface_velocity: Vect<D>,
     /// Motion of the wall.
     pub motion: RigidMotion<D>,
+    /// Its grains, if its surface is a bed: with a cell and a height to stretch.
+    pub erodible: Option<Erodible>,
     /// Its mover, with the force of the fluid.
     pub mover: Option<Arc<dyn Mover<D>>>,
     /// True if fluid passes it: it stops no particle.
@@ -74,9 +35,10 @@ impl<const D: usize> WallSpec<D> {
     pub fn at_rest(drawing: Drawing) -> Self {
         WallSpec {
             drawing,
-            condition: WallCondition::NoSlip,
+            condition: WallCondition::default(),
             surface_velocity: Vect::zeros(),
             motion: RigidMotion::default(),
+            erodible: None,
             mover: None,
             open: false,
         }

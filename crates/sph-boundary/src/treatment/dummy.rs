@@ -1,6 +1,6 @@
 //! Walls of dummy particles after Adami, Hu & Adams (2012).
 
-use sph_core::{StepError, Vect, fields, plugin};
+use sph_core::{SlipCondition, StepError, Vect, fields, plugin};
 use sph_kernels::lanes::{Lane, dot};
 use sph_neighbours::{LanePair, PairSum, Particles, WallSet, World, add_scaled, shepard, splat};
 
@@ -10,8 +10,8 @@ use crate::treatment::outline::Outline;
 use crate::treatment::shaped::shaped_by_outline;
 use crate::treatment::shepard::EffectiveGravity;
 use crate::{
-    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallCondition, WallEntry, WallMesh,
-    WallSetup, WallSpec, WallStates,
+    BoundaryError, PlanarWalls, Result, SpatialWalls, Wall, WallEntry, WallMesh, WallSetup,
+    WallSpec, WallStates,
 };
 
 /// Layers of fixed particles behind the wall that take part in all sums like fluid particles.
@@ -50,7 +50,7 @@ struct SetUp<const D: usize, M: WallMesh<D>> {
 impl<const D: usize, M: WallMesh<D>> SetUp<D, M> {
     fn new(setup: &WallSetup<'_, D>) -> Result<Self> {
         let support = setup.kernel.support() * setup.smoothing_length;
-        let rough = |w: &&WallSpec<D>| matches!(w.condition, WallCondition::Coulomb(_));
+        let rough = |w: &&WallSpec<D>| w.condition.slip == SlipCondition::Coulomb;
         if let Some(wall) = setup.walls.iter().find(rough) {
             let why = "has Coulomb's friction, which needs the wall elements of `walls.usaw`";
             return Err(BoundaryError::unfit(wall.drawing.name(), why));

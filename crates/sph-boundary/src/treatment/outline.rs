@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::Vect;
 use sph_core::bed::Bed;
+use sph_core::{Erodible, FrictionForm, Vect};
 use sph_kernels::Sampler;
-use sph_neighbours::{Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet};
+use sph_neighbours::{
+    Coulomb, Domain, Elements, Frame, FreeBody, LinePull, WallForce, WallPoints, WallSet,
+};
 
 use crate::geometry::mesh::bed_of;
 use crate::geometry::walls::cover::Cover;
@@ -58,7 +60,8 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn new(setup: &WallSetup<'_, D>, support: f64, size: f64) -> Result<Self> {
         let whole = (0..setup.walls.len()).filter(|k| !is_piece(setup.walls, *k));
         for spec in whole.map(|k| &setup.walls[k]) {
-            if !spec.motion.is_sound() {
+            let sound = spec.erodible.iter().all(Erodible::is_sound);
+            if !(spec.motion.is_sound() && sound) {
                 return Err(BoundaryError::motion(spec.drawing.name()));
             }
             let slip = spec.condition.slip_length();
@@ -286,7 +289,7 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
     pub fn elements(&self) -> Elements<D> {
         let mut elements = Elements::default();
         let slips = self.slips();
-        let rubs = |s: &WallSpec<D>| s.condition.coulomb().coefficient > 0.0;
+        let rubs = |s: &WallSpec<D>| s.condition.friction_coefficient > Some(0.0);
         let rubs = self.specs.iter().any(rubs);
         for element in self.mesh.elements() {
             let condition = &self.specs[element.wall].condition;
@@ -300,7 +303,10 @@ impl<const D: usize, M: WallMesh<D>> Outline<D, M> {
                 elements.slip.push(condition.slip_length());
             }
             if rubs {
-                elements.coulomb.push(condition.coulomb());
+                elements.coulomb.push(Coulomb {
+                    coefficient: condition.friction_coefficient.unwrap_or(0.0),
+                    literal: condition.friction_form == Some(FrictionForm::Literal),
+                });
             }
         }
         let count = elements.centre.len();

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use sph_boundary::{
-    Bend, Course, Drawing, Erodible, Polyline, RigidMotion, Rotation, Surface, WallSpec,
-};
-use sph_core::Vect;
+use sph_boundary::{Bend, Course, Drawing, Polyline, RigidMotion, Rotation, Surface, WallSpec};
 use sph_core::bed::horizontal;
+use sph_core::{Erodible, Vect};
 
 use crate::bench::{Bench, Random, largest, moving, wide};
 use crate::spatial_plugin::shapes::block;
@@ -297,17 +295,19 @@ fn the_velocity_of_a_bending_wall_is_the_rate_of_its_position() {
 
 fn bed<B: Block<D>, const D: usize>() -> Bench<D> {
     let motion = RigidMotion {
-        bed: Some(Arc::new(Erodible {
-            wall: "block".into(),
-            cell: 0.5,
-            from: [f64::NEG_INFINITY; 2],
-            to: [f64::INFINITY; 2],
-            rock: f64::NEG_INFINITY,
-            fade: 10.0,
-        })),
+        bed: Some("block".into()),
         ..RigidMotion::default()
     };
-    B::bench("usaw", moving(B::drawing(|x| x), motion))
+    let erodible = Some(Erodible {
+        cell: Some(0.5),
+        stretch: Some(10.0),
+        ..Erodible::default()
+    });
+    let spec = WallSpec {
+        erodible,
+        ..moving(B::drawing(|x| x), motion)
+    };
+    B::bench("usaw", spec)
 }
 
 fn a_sloping_bed_is_the_wall_drawn_so<B: Block<D>, const D: usize>() {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use dem_pfv::scene::{Compared, Examination, Loaded, Summary, examine};
-use sph_core::{comma_list, number};
+use sph_core::{comma_list, labelled, number};
 
 use crate::commands::file_list;
 use crate::commands::outcome::{errors, headline, limited_by, wall_time};
@@ -81,10 +81,7 @@ fn explain_text(e: &Examination) -> String {
     text.push_str("\nlimits of the time step\n");
     text.push_str(&paragraphs(2, &e.limits));
     text.push_str("\ncolumns of series.csv\n");
-    let name = |(name, unit): &(String, String)| match unit.as_str() {
-        "" => name.clone(),
-        unit => format!("{name} [{unit}]"),
-    };
+    let name = |(name, unit): &(String, String)| labelled(name, unit);
     text + &paragraph(2, WIDTH, &comma_list(e.columns.iter().map(name)))
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::json;
-use sph_core::{parse_quantity, some_unit, suggestion};
+use sph_core::{labelled, parse_quantity, suggestion};
 use sph_io::curves::{Column, Snapshot};
 use sph_io::write_whole;
 use sph_probes::{Reduce, Reduction, Weight, WeightedValues};
@@ -45,17 +45,13 @@ pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
 }
 
 fn names(arguments: &MeasureArguments, unit: &str) -> Vec<String> {
-    let named = |how: String| match some_unit(unit) {
-        None => how,
-        Some(unit) => format!("{how} [{unit}]"),
-    };
     let reductions = arguments.reduce.iter().map(|how| match how {
         Reduction::Share => how.name().to_string(),
         Reduction::Total => format!("{} [{}]", how.name(), arguments.weight.unit()),
-        _ => named(how.name().into()),
+        _ => labelled(how.name(), unit),
     });
     let quantiles = arguments.quantile.iter();
-    let quantiles = quantiles.map(|share| named(format!("q{share}")));
+    let quantiles = quantiles.map(|share| labelled(&format!("q{share}"), unit));
     let time = std::iter::once("time [s]".to_string());
     time.chain(reductions).chain(quantiles).collect()
 }

@@ -4,12 +4,11 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use sph_scene::Source;
+use sph_scene::{Source, named_files};
 
-use crate::scene_file::AnyScene;
-use crate::shipped::Content;
+use crate::scene_file::method;
+use crate::shipped::{self, Content};
 use crate::terminal::{Trouble, console};
-use crate::{scene_file, shipped};
 
 /// A dam break in a box, every line explained.
 const TEMPLATE: &str = include_str!("../../templates/dam-break.toml");
@@ -80,14 +79,15 @@ fn data(text: &str, origin: Option<&Path>, folder: &Path) -> Result<Vec<PathBuf>
         })?);
     };
     let name = origin.join("scene.toml").display().to_string();
-    let (source, files) = match scene_file::read(Source::new(text, &name, &[])) {
-        Ok(AnyScene::Particles(loaded)) => (loaded.source.clone(), loaded.files()),
-        Ok(AnyScene::Grains(loaded)) => (loaded.source.clone(), loaded.files()),
-        Err(_) => return Ok(Vec::new()),
+    let read = method(text, &name).read(Source::new(text, &name, &[]));
+    let Ok(subject) = read else {
+        return Ok(Vec::new());
     };
+    let files = named_files(&subject.resolved());
+    let path = |key, file| subject.source().resolve(key, file).ok();
     let placed = files
         .iter()
-        .filter_map(|(key, file)| Some((file.as_str(), source.resolve(key, file).ok()?)));
+        .filter_map(|(key, file)| Some((file.as_str(), path(key, file)?)));
     copied(placed, folder)
 }
 

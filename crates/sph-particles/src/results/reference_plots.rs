@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use sph_core::labelled;
 use sph_io::{Plot, Series, read_table};
 use sph_scene::{Norm, Scene};
 
@@ -56,10 +57,7 @@ pub fn plots(scene: &Scene, folder: &Path) -> Result<()> {
             _ => Series::markers(source, lower),
         };
         let column = table.columns.iter().find(|c| c.name == *probe);
-        let y_label = match column.map(|c| &*c.unit) {
-            None | Some("" | "1") => probe.clone(),
-            Some(unit) => format!("{probe} [{unit}]"),
-        };
+        let y_label = labelled(probe, column.map_or("", |c| &c.unit));
         let plot = Plot {
             title: format!("{}: {name}", scene.title),
             x_label: "time [s]".into(),

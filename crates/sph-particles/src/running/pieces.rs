@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::{Plain, Store, Vect, fields};
+use sph_core::{Plain, Store, Vect, fields, labelled};
 use sph_io::{Cells, FieldData, FieldValues, Location, Piece};
 use sph_neighbours::World;
 use sph_neighbours::decomposition::OWNER;
@@ -193,11 +193,7 @@ pub fn column_of<const D: usize>(flow: &Flow<D>, name: &str) -> Option<(String, 
             v.chunks(components).map(length).collect()
         }
     };
-    let label = match unit {
-        "1" => name.replace('_', " "),
-        unit => format!("{} [{unit}]", name.replace('_', " ")),
-    };
-    Some((label, values))
+    Some((labelled(&name.replace('_', " "), unit), values))
 }
 
 /// The walls as lines.

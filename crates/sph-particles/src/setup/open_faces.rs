@@ -6,10 +6,10 @@
 
 use std::sync::Arc;
 
-use sph_boundary::{Wall, WallCondition, WallEntry};
+use sph_boundary::{Wall, WallEntry};
 use sph_contribution::Part;
 use sph_core::fields::RENORMALISATION;
-use sph_core::{Contract, SceneProblem, Vect};
+use sph_core::{Contract, SceneProblem, SlipCondition, Vect, WallCondition};
 use sph_neighbours::{CellGrid, World};
 use sph_open::{Entering, OpenBoundaries, OpenBoundary, OpenBoundaryEntry, OpenSetting, open};
 use sph_rheology::state::{Laws, Lift};
@@ -62,7 +62,10 @@ pub fn prepare<const D: usize>(
     for spec in &mut drawn.walls {
         if given.iter().any(|(name, _)| name == spec.drawing.name()) {
             spec.open = true;
-            spec.condition = WallCondition::FreeSlip;
+            spec.condition = WallCondition {
+                slip: SlipCondition::FreeSlip,
+                ..WallCondition::default()
+            };
         }
     }
     let shared = |(name, law)| (name, Arc::from(law));

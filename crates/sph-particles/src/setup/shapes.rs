@@ -1,20 +1,19 @@
 //! The scene's walls and bodies as geometry: files read, shapes drawn.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sph_boundary::{
-    Bend, BoundaryError, Course, Drawing, Erodible, Polyline, RigidMotion, Surface, WallCondition,
-    WallSpec, thin_plate,
+    Bend, BoundaryError, Course, Drawing, Polyline, RigidMotion, Surface, WallSpec, thin_plate,
 };
 use sph_core::plausible::Quantity;
-use sph_core::{Vect, suggestion, unit_factor};
-use sph_neighbours::Coulomb;
-use sph_scene::{Facets, FrictionForm, Levels, Line, Region, Scene, SlipCondition};
+use sph_core::{Erodible, Vect, suggestion, unit_factor};
+use sph_scene::{Facets, Levels, Line, Region, Scene};
 use sph_solver::SolverError;
 
 /// Most corners of lines, or facets of surfaces, of all walls.
 const PIECES: usize = 10_000_000;
+/// Spacings over which walls in a bed stretch, where the scene does not say it.
+const STRETCH: f64 = 10.0;
 
 /// Refuses the wall with which there are too many corners or facets.
 fn few(pieces: usize, place: &str) -> Result<(), SolverError> {
@@ -43,7 +42,6 @@ impl<const D: usize> Drawn<D> {
     pub fn from_scene(scene: &Scene) -> Result<Self, SolverError> {
         let mut drawn = Drawn::default();
         let mut pieces = 0;
-        let mut beds = BTreeMap::new();
         // Those of shapes are known before any is drawn.
         for (name, wall) in &scene.wall {
             pieces += wall.declared(scene.numerics.spacing);
@@ -58,18 +56,14 @@ impl<const D: usize> Drawn<D> {
                     None => rigid_motion(motion, &format!("{place}.motion"), scene.run.end)?,
                 },
             };
-            motion.bed = bed_of(scene, name, wall, &mut beds);
-            let condition = match wall.condition {
-                SlipCondition::NoSlip => WallCondition::NoSlip,
-                SlipCondition::FreeSlip => WallCondition::FreeSlip,
-                SlipCondition::PartialSlip => WallCondition::PartialSlip {
-                    length: wall.slip_length.unwrap_or(0.0),
-                },
-                SlipCondition::Coulomb => WallCondition::Coulomb(Coulomb {
-                    coefficient: wall.friction_coefficient.unwrap_or(0.0),
-                    literal: wall.friction_form == Some(FrictionForm::Literal),
-                }),
-            };
+            let own_bed = wall.erodible.as_ref().map(|_| name.clone());
+            motion.bed = wall.stands_in.clone().or(own_bed);
+            let spacing = scene.numerics.spacing;
+            let erodible = wall.erodible.clone().map(|bed| Erodible {
+                cell: bed.cell.or(Some(spacing)),
+                stretch: bed.stretch.or(Some(STRETCH * spacing)),
+                ..bed
+            });
             let surface = wall.velocity.as_deref();
             let surface_velocity = surface.map_or_else(Vect::zeros, Vect::from_column_slice);
             for drawing in drawn.drawings(scene, name, wall, &place)? {
@@ -83,9 +77,10 @@ impl<const D: usize> Drawn<D> {
                 drawn.near(scene.numerics.spacing, &place)?;
                 drawn.walls.push(WallSpec {
                     drawing,
-                    condition,
+                    condition: wall.condition,
                     surface_velocity,
                     motion: motion.clone(),
+                    erodible: erodible.clone(),
                     mover: None,
                     open: false,
                 });
@@ -175,36 +170,6 @@ fn going_on(mut rows: Vec<[f64; 2]>, end: f64) -> Vec<[f64; 2]> {
     rows
 }
 
-/// Spacings over which walls in a bed stretch, where the scene does not say it.
-const STRETCH: f64 = 10.0;
-
-/// The bed that a wall is or stands in, one for all of them.
-fn bed_of(
-    scene: &Scene,
-    name: &str,
-    wall: &sph_scene::Wall,
-    beds: &mut BTreeMap<String, Arc<Erodible>>,
-) -> Option<Arc<Erodible>> {
-    let bed = wall.stands_in.as_deref().unwrap_or(name);
-    let grains = scene.wall.get(bed)?.erodible.as_ref()?;
-    let spacing = scene.numerics.spacing;
-    let corner = |given: &Option<Vec<f64>>, none: f64| {
-        let at = |k: usize| given.as_ref().and_then(|list| list.get(k).copied());
-        [0, 1].map(|k| at(k).unwrap_or(none))
-    };
-    let erodible = beds.entry(bed.to_string()).or_insert_with(|| {
-        Arc::new(Erodible {
-            wall: bed.to_string(),
-            cell: grains.cell.unwrap_or(spacing),
-            from: corner(&grains.from, f64::NEG_INFINITY),
-            to: corner(&grains.to, f64::INFINITY),
-            rock: grains.rock.unwrap_or(f64::NEG_INFINITY),
-            fade: grains.stretch.unwrap_or(STRETCH * spacing),
-        })
-    });
-    Some(erodible.clone())
-}
-
 /// Translations and a rotation of a motion that follows no levels; `place` is its path in the scene, `end` the end of the run,
 /// s.
 pub fn rigid_motion<const D: usize>(
@@ -212,19 +177,19 @@ pub fn rigid_motion<const D: usize>(
     place: &str,
     end: f64,
 ) -> Result<RigidMotion<D>, SolverError> {
-    let mut courses = motion.courses(place)?;
-    let shifts = courses.translations.iter_mut().map(|t| &mut t.course);
-    let turns = courses.rotation.iter_mut().map(|r| &mut r.course);
+    let (mut translations, mut rotation) = motion.courses(place)?;
+    let shifts = translations.iter_mut().map(|t| &mut t.course);
+    let turns = rotation.iter_mut().map(|r| &mut r.course);
     for course in shifts.chain(turns) {
         if let Course::Table { rows } = course {
-            *rows = going_on(rows.to_vec(), end - courses.start).into();
+            *rows = going_on(rows.to_vec(), end - motion.start).into();
         }
     }
     Ok(RigidMotion {
-        translations: courses.translations,
-        rotation: courses.rotation,
-        start: courses.start,
-        stop: courses.stop,
+        translations,
+        rotation,
+        start: motion.start,
+        stop: motion.stop.unwrap_or(f64::INFINITY),
         ..RigidMotion::default()
     })
 }

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use sph_core::{suggestion, unit_factor};
+use sph_core::{SlipCondition, suggestion, unit_factor};
 
 use crate::checks::motion;
 use crate::checks::shapes::keys_of_shape;
 use crate::checks::table_check::TableCheck;
 use crate::drawings::format::Format;
 use crate::tables::wall::{Face, Wedge};
-use crate::{FluidSide, SlipCondition, Wall};
+use crate::{FluidSide, Wall};
 
 pub(crate) fn wall_geometry(wall: &Wall, mut check: TableCheck<'_>) {
     let all = match check.dimension {
@@ -50,17 +50,18 @@ fn moves(wall: &Wall) -> bool {
 }
 
 fn condition(wall: &Wall, check: &mut TableCheck<'_>) {
-    let partial = wall.condition == SlipCondition::PartialSlip;
+    let given = &wall.condition;
+    let partial = given.slip == SlipCondition::PartialSlip;
     let message = "`partial-slip` needs the key `slip_length`";
-    check.refuse(partial && wall.slip_length.is_none(), "condition", message);
-    let misplaced = wall.slip_length.is_some() && !partial;
+    check.refuse(partial && given.slip_length.is_none(), "condition", message);
+    let misplaced = given.slip_length.is_some() && !partial;
     let message = "a slip length belongs to `condition = \"partial-slip\"`";
     check.refuse(misplaced, "slip_length", message);
-    let coulomb = wall.condition == SlipCondition::Coulomb;
-    let coefficient = wall.friction_coefficient.is_some();
+    let coulomb = given.slip == SlipCondition::Coulomb;
+    let coefficient = given.friction_coefficient.is_some();
     let message = "`coulomb` needs the key `friction_coefficient`";
     check.refuse(coulomb && !coefficient, "condition", message);
-    let form = wall.friction_form.is_some();
+    let form = given.friction_form.is_some();
     for (key, given) in [
         ("friction_coefficient", coefficient),
         ("friction_form", form),

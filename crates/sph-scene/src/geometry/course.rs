@@ -9,27 +9,18 @@ use crate::geometry::vector::{array, unit, unit_axis};
 use crate::reading::limits::TIMES;
 use crate::tables::motion::{CourseRows, Motion, Rotation, Translate};
 
-/// All courses of a motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Courses<const D: usize> {
-    /// Along unit vectors; they add up.
-    pub translations: Vec<Translation<D>>,
-    /// About a unit vector; (0, 0, 1) in 2D.
-    pub rotation: Option<course::Rotation<D>>,
-    /// Time from which the courses count, s.
-    pub start: f64,
-    /// Time from which the wall stays where it is, s.
-    pub stop: f64,
-}
-
 impl Motion {
-    /// The courses, with `velocity` and `angular_velocity` among them and files read.
+    /// Translations along unit vectors, which add up, and the rotation about a unit vector, (0, 0, 1) in 2D;
+    /// `velocity` and `angular_velocity` are among them, and files read.
     ///
     /// `place` is the path of the motion in the scene: `wall.gate.motion`.
     ///
     /// # Errors
     /// If a file cannot be read or is no course.
-    pub fn courses<const D: usize>(&self, place: &str) -> Result<Courses<D>, SceneProblem> {
+    pub fn courses<const D: usize>(
+        &self,
+        place: &str,
+    ) -> Result<(Vec<Translation<D>>, Option<course::Rotation<D>>), SceneProblem> {
         let mut translations = Vec::new();
         if let Some(velocity) = &self.velocity {
             let speed = velocity.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -61,12 +52,7 @@ impl Motion {
             axis: unit_axis(axis),
             course,
         });
-        Ok(Courses {
-            translations,
-            rotation,
-            start: self.start,
-            stop: self.stop.unwrap_or(f64::INFINITY),
-        })
+        Ok((translations, rotation))
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use scene_text::{Diagnostic, Override, Source, named_files, read_text};
+use scene_text::{Diagnostic, Override, Source, read_text};
 use sph_core::{SceneProblem, conform, kinds};
 use thiserror::Error;
 use toml::{Table, Value};
@@ -34,11 +34,6 @@ impl Loaded {
             // It has been read from this source before.
             _ => Table::new(),
         }
-    }
-
-    /// Every file that the scene names, after the dotted path of its key, in the order of the keys.
-    pub fn files(&self) -> Vec<(String, String)> {
-        named_files(&self.resolved())
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use scene_text::given;
-use sph_core::parameters;
+use sph_core::{Erodible, WallCondition, parameters};
 
 use crate::reading::plugins::{AnyPlugins, Plugins};
 use crate::tables::body::BodyShape;
@@ -71,18 +71,9 @@ pub struct Wall {
     /// round.
     #[parameter(default)]
     pub align: bool,
-    /// Condition of the fluid at the wall: it sticks or slips.
-    #[parameter(default)]
-    pub condition: SlipCondition,
-    /// Slip length, m, for `condition = "partial-slip"`: how deep in the wall the fluid's velocity, continued straight, is the wall's.
-    #[parameter(unit: "m", above: 0.0)]
-    pub slip_length: Option<f64>,
-    /// Coefficient of friction μ, for `condition = "coulomb"`: soils that slide are pulled with μ times their load on
-    /// the wall.
-    #[parameter(unit: "1", min: 0.0)]
-    pub friction_coefficient: Option<f64>,
-    /// Distribution of that friction, for `condition = "coulomb"`.
-    pub friction_form: Option<FrictionForm>,
+    /// Condition of the fluid at the wall.
+    #[serde(flatten)]
+    pub condition: WallCondition,
     /// Velocity of the wall's surface, m/s, while its geometry stays: a belt.
     #[parameter(unit: "m/s")]
     pub velocity: Option<Vec<f64>>,
@@ -108,30 +99,6 @@ pub struct Wall {
     /// File and line in which its table begins, set when the scene is read.
     #[serde(skip)]
     pub place: Option<String>,
-}
-
-/// Condition of a wall for the velocity along it.
-#[parameters]
-pub enum SlipCondition {
-    /// The fluid moves with the wall.
-    #[default]
-    NoSlip,
-    /// The fluid slides along the wall without friction.
-    FreeSlip,
-    /// The fluid slides with friction: its velocity relative to the wall is the slip length times its gradient.
-    PartialSlip,
-    /// Soils slide with Coulomb's friction, other fluids without any.
-    Coulomb,
-}
-
-/// Distribution of Coulomb's friction at a wall among the particles.
-#[parameters]
-pub enum FrictionForm {
-    /// All of it: the coefficient times the force on the wall.
-    #[default]
-    Normalised,
-    /// As printed (Ghaïtanellis 2017, Eq. 4.118): a quarter to a third of it arrives.
-    Literal,
 }
 
 /// On which side of a closed geometry the fluid is.
@@ -185,29 +152,6 @@ impl Wall {
         };
         Some(self.fluid.unwrap_or(default))
     }
-}
-
-/// Grains that a wall is made of, so far as it faces upwards: a law of [bed load](https://docs.rs/sph-soil) raises and lowers it.
-///
-/// A bed that is a part of its wall ends where grains come and go, as many as the flow carries there; a whole wall keeps its
-/// grains.
-#[parameters]
-pub struct Erodible {
-    /// Distance of the places at which the level is known, m; the spacing if left out.
-    #[parameter(unit: "m", above: 0.0)]
-    pub cell: Option<f64>,
-    /// Start of the bed along x, in three dimensions along x and y, m; `-inf` or left out for as far as the wall goes.
-    #[parameter(unit: "m", min_items: 1)]
-    pub from: Option<Vec<f64>>,
-    /// End of the bed, m; `inf` or left out for as far as the wall goes.
-    #[parameter(unit: "m", min_items: 1)]
-    pub to: Option<Vec<f64>>,
-    /// Level under which there are no grains, m; grains without end if left out.
-    #[parameter(unit: "m")]
-    pub rock: Option<f64>,
-    /// Height over the bed within which walls that stand in it stretch, m; ten spacings if left out.
-    #[parameter(unit: "m", above: 0.0)]
-    pub stretch: Option<f64>,
 }
 
 /// A face of a box, or a direction along an axis.

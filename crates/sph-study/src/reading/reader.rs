@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use sph_core::{SceneProblem, suggestion};
-use sph_run::Subject;
+use sph_run::{Subject, marks};
 use sph_scene::{Override, Source};
 use toml::{Table, Value};
 
@@ -105,7 +105,8 @@ impl Reader<'_> {
         }
         let scene = subject.source();
         let unreadable = |problem| place(scene, &scene.diagnose(&[problem]));
-        let marks = subject.marks().map_err(unreadable)?;
+        let resolved = subject.resolved();
+        let marks = marks(scene, &resolved).map_err(unreadable)?;
         let labels = self.axes.iter().zip(&combination.choices);
         let only = self.inputs.only;
         let name = combination.name.clone();
@@ -113,7 +114,7 @@ impl Reader<'_> {
             labels: labels.map(|(a, k)| a.choices[*k].label.clone()).collect(),
             refinement: refinement.and_then(Result::ok),
             wanted: only.is_empty() || only.iter().any(|p| fits(p, &name)),
-            fingerprint: fingerprint(subject.resolved(), &marks),
+            fingerprint: fingerprint(resolved, &marks),
             errors: self.errors.iter().map(|e| e.0.clone()).collect(),
             rung: None,
             name,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use sph_run::{Method, Subject};
+use sph_run::{FileMark, Method, Subject};
 use toml::Table;
 
 use crate::Bounds;
@@ -36,13 +36,13 @@ pub struct Variant {
 /// A fingerprint of a resolved scene, the content of its data files by their keys, and the program's version.
 ///
 /// Titles and descriptions do not count.
-pub fn fingerprint(mut scene: Table, marks: &[(String, String)]) -> String {
+pub fn fingerprint(mut scene: Table, marks: &[FileMark]) -> String {
     scene.remove("title");
     scene.remove("description");
     let scene = toml::to_string(&scene).unwrap_or_default();
     let mut text = format!("sph {VERSION}\n{scene}");
-    for (key, content) in marks {
-        text.push_str(&format!("{key} {content}\n"));
+    for mark in marks {
+        text.push_str(&format!("{} {}\n", mark.key, mark.content));
     }
     format!("{:08x}-{}", crc32fast::hash(text.as_bytes()), text.len())
 }

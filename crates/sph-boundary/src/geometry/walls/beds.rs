@@ -1,11 +1,10 @@
 //! The beds of walls that grains make, as they are drawn.
 
-use std::sync::Arc;
-
+use sph_core::Erodible;
 use sph_core::bed::{Bed, LevelGrid, horizontal};
 
 use crate::geometry::vector::{bounds, perp, sub};
-use crate::{BoundaryError, Erodible, Mesh, PeriodicBox, Result, WallSpec};
+use crate::{BoundaryError, Mesh, PeriodicBox, Result, WallSpec};
 
 /// Elements whose normal has a smaller part upwards are no floor.
 const FLOOR: f64 = 0.02;
@@ -23,19 +22,21 @@ pub(crate) fn laid<const D: usize>(
     domain: &PeriodicBox<D>,
 ) -> Result<Vec<Bed>> {
     let mut beds = Vec::new();
-    let mut seen: Vec<&Arc<Erodible>> = Vec::new();
-    for erodible in specs.iter().filter_map(|spec| spec.motion.bed.as_ref()) {
-        if seen.contains(&erodible) {
+    let mut seen: Vec<&str> = Vec::new();
+    for name in specs.iter().filter_map(|spec| spec.motion.bed.as_deref()) {
+        if seen.contains(&name) {
             continue;
         }
-        seen.push(erodible);
-        let follows = |k: &usize| specs[*k].motion.bed.as_ref() == Some(erodible);
-        let own = |k: &usize| specs[*k].drawing.name() == erodible.wall;
+        seen.push(name);
+        let follows = |k: &usize| specs[*k].motion.bed.as_deref() == Some(name);
+        let own = |k: &usize| specs[*k].drawing.name() == name;
         let (own, others): (Vec<usize>, Vec<usize>) =
             (0..specs.len()).filter(follows).partition(own);
+        let erodible = own.first().and_then(|k| specs[*k].erodible.as_ref());
+        let erodible = erodible.ok_or_else(|| no_floor(name))?;
         let floor = floor(mesh, &own);
         let all = own.iter().chain(&others).map(|k| *k as u32);
-        beds.push(bed(erodible, &floor, all.collect(), domain)?);
+        beds.push(bed((name, erodible), &floor, all.collect(), domain)?);
     }
     Ok(beds)
 }
@@ -50,41 +51,43 @@ fn floor<const D: usize>(mesh: &Mesh<D>, walls: &[usize]) -> Vec<[[f64; D]; D]> 
 }
 
 fn bed<const D: usize>(
-    erodible: &Erodible,
+    (name, erodible): (&str, &Erodible),
     floor: &[[[f64; D]; D]],
     walls: Vec<u32>,
     domain: &PeriodicBox<D>,
 ) -> Result<Bed> {
     if floor.is_empty() {
-        return Err(no_floor(erodible));
+        return Err(no_floor(name));
     }
-    let (grid, cut) = grid(erodible, floor, domain)?;
-    let level = |place| level(floor, grid.position(place), BORDER * erodible.cell);
+    let cell = erodible.cell.unwrap_or_default();
+    let (grid, cut) = grid((name, erodible), cell, floor, domain)?;
+    let level = |place| level(floor, grid.position(place), BORDER * cell);
     let levels: Vec<_> = (0..grid.len()).map(level).collect();
     let covered: Vec<bool> = levels.iter().map(Option::is_none).collect();
     let at_cut = |place: usize| {
         let index = grid.index(place);
         (0..2).any(|k| cut[k][0] && index[k] == 0 || cut[k][1] && index[k] + 1 == grid.count[k])
     };
-    let drawn = filled(&grid, levels).ok_or_else(|| no_floor(erodible))?;
+    let drawn = filled(&grid, levels).ok_or_else(|| no_floor(name))?;
     Ok(Bed {
         walls,
         held: (0..grid.len()).map(at_cut).collect(),
         covered,
-        rock: erodible.rock,
-        fade: erodible.fade,
+        rock: erodible.rock.unwrap_or(f64::NEG_INFINITY),
+        fade: erodible.stretch.unwrap_or_default(),
         ..Bed::drawn(grid, drawn)
     })
 }
 
-fn no_floor(erodible: &Erodible) -> BoundaryError {
+fn no_floor(name: &str) -> BoundaryError {
     let why = "has no part that faces upwards, which a bed of grains needs";
-    BoundaryError::unfit(&erodible.wall, why)
+    BoundaryError::unfit(name, why)
 }
 
 /// The places of a bed, and at which ends of the axes it is cut off from the rest of the wall.
 fn grid<const D: usize>(
-    erodible: &Erodible,
+    (name, erodible): (&str, &Erodible),
+    cell: f64,
     floor: &[[[f64; D]; D]],
     domain: &PeriodicBox<D>,
 ) -> Result<(LevelGrid, [[bool; 2]; 2])> {
@@ -98,18 +101,18 @@ fn grid<const D: usize>(
     let mut cut = [[false; 2]; 2];
     for k in 0..D - 1 {
         let (low, high) = (lower[k], upper[k]);
-        let near = BORDER * erodible.cell;
-        cut[k] = [erodible.from[k] > low + near, erodible.to[k] < high - near];
-        let (low, high) = (low.max(erodible.from[k]), high.min(erodible.to[k]));
+        let near = BORDER * cell;
+        let [from, to] = erodible.extent(k);
+        cut[k] = [from > low + near, to < high - near];
+        let (low, high) = (low.max(from), high.min(to));
         let length = high - low;
         if length.is_nan() || length <= 0.0 {
-            return Err(no_floor(erodible));
+            return Err(no_floor(name));
         }
-        let cells = (length / erodible.cell).round().max(1.0);
+        let cells = (length / cell).round().max(1.0);
         if cells * grid.count[0] as f64 > MOST_PLACES as f64 {
             return Err(BoundaryError(format!(
-                "the bed `{}` has {} places, more than {MOST_PLACES}: give it a larger `cell`",
-                erodible.wall,
+                "the bed `{name}` has {} places, more than {MOST_PLACES}: give it a larger `cell`",
                 cells * grid.count[0] as f64
             )));
         }
