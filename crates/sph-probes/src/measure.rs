@@ -1,5 +1,6 @@
 //! Measurements that compose: a quantity of particles, the particles that count, and a reduction to numbers.
 
+pub(crate) mod level;
 mod particles;
 mod plan;
 pub(crate) mod presets;

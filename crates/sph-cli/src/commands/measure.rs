@@ -125,6 +125,7 @@ fn statistic(
         field: arguments.field.clone(),
         reduce: arguments.reduce.clone(),
         quantiles: arguments.quantile.clone(),
+        levels: Vec::new(),
         weight: arguments.weight,
         phase: arguments.phase.clone(),
         above,

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use sph_core::StepError;
 use sph_neighbours::World;
 
+use super::level::highest_place;
 use super::particles::MeasuredParticles;
 use super::quantity::{AXES, Quantity, Reduce, WeightedValues};
 use crate::phases::phase;
@@ -30,6 +31,8 @@ pub(crate) struct PlannedColumn {
     pub reduce: Reduce,
     pub scale: f64,
     pub spacings: f64,
+    /// The value whose highest place is the column, in place of a reduction.
+    pub level: Option<f64>,
     /// The units in the plane and in space, where they are not that of the quantity.
     pub units: Option<[&'static str; 2]>,
 }
@@ -44,12 +47,21 @@ impl PlannedColumn {
             reduce: reduce.into(),
             scale: 1.0,
             spacings: 0.0,
+            level: None,
         }
     }
 
     pub fn and_spacings(mut self, spacings: f64) -> Self {
         self.spacings = spacings;
         self
+    }
+
+    /// The highest place at which the mean over a spacing comes up to a value.
+    pub fn at_level(self, value: f64) -> Self {
+        PlannedColumn {
+            level: Some(value),
+            ..self.in_units(["m"; 2])
+        }
     }
 
     /// In units of its own, in the plane and in space.
@@ -189,6 +201,14 @@ impl MeasuringProbe {
         let one = |column: &PlannedColumn| {
             let (value, unit) = column.of.values(of)?;
             let values: Vec<f64> = counted.iter().map(|k| value(*k)).collect();
+            if let Some(wanted) = column.level {
+                let positions = of.positions()?;
+                let weight = |k: usize| own.as_ref().map_or(1.0, |own| own[k]);
+                let samples = counted.iter().zip(&values).enumerate();
+                let samples = samples.map(|(k, (n, v))| [positions[*n][D - 1], weight(k), *v]);
+                let level = highest_place(samples.collect(), of.spacing(), wanted);
+                return Ok((level, unit));
+            }
             let weighed = WeightedValues {
                 values: &values,
                 weights: own.as_deref(),
