@@ -48,8 +48,8 @@ impl Weight {
 /// is a column (`pressure`; of a vector or tensor its magnitude), a component (`velocity.x`), a coordinate (`x`, `y`,
 /// `z`), or one of `speed`, `kinetic_energy` and `potential_energy`. Bounds and values are in SI units.
 ///
-/// `levels = [0.05]` adds the highest place at which the values come up to 0.05, in the field's own unit: the surface of a
-/// deposit or of a heated layer. There the mean counts over the particles within a spacing, weighed with `weight` and
+/// `levels = [0.05]` adds the highest place at which the values come up to 0.05, in the field's own unit: the surface of
+/// a deposit or of a heated layer. The mean over the particles within a spacing counts, weighed with `weight` and
 /// 1 − |Δz|/δr; it is linear between heights a quarter of a spacing apart. NaN where the values do not come up to it.
 ///
 /// `fit = "x"` adds slope and root mean square distance of the line through the values over that coordinate. `along =
