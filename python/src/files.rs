@@ -79,6 +79,18 @@ pub fn list_pvd(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(f64, String, Pat
 /// A column of a table: its name, its unit and its values.
 type NamedColumn<'py> = (String, String, Bound<'py, PyArray1<f64>>);
 
+/// `sph measure` with its arguments as JSON: name, unit and values of every column.
+#[pyfunction]
+pub fn measure(py: Python<'_>, arguments: String) -> PyResult<Vec<NamedColumn<'_>>> {
+    let table = py.detach(|| sph_cli::library::measure(&arguments));
+    let table = table.map_err(|t| errors::from_trouble(py, &t))?;
+    let columns = table.columns.into_iter().enumerate();
+    let values = |k: usize| table.rows.iter().map(|row| row[k]).collect();
+    Ok(columns
+        .map(|(k, (name, unit))| (name, unit, PyArray1::from_vec(py, values(k))))
+        .collect())
+}
+
 /// Name, unit and values of every column of a table.
 #[pyfunction]
 pub fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<Vec<NamedColumn<'_>>> {

@@ -30,6 +30,7 @@ fn _sph(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(files::read_vtu, module)?)?;
     module.add_function(wrap_pyfunction!(files::list_pvd, module)?)?;
     module.add_function(wrap_pyfunction!(files::read_table, module)?)?;
+    module.add_function(wrap_pyfunction!(files::measure, module)?)?;
     module.add_function(wrap_pyfunction!(functions::costs, module)?)?;
     module.add_function(wrap_pyfunction!(functions::register, module)?)?;
     module.add_function(wrap_pyfunction!(functions::forget, module)?)?;

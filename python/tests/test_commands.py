@@ -208,6 +208,28 @@ def test_a_law_is_sheared_alone_and_its_mistakes_are_told():
         sph.Law("newtonian", viscosity="1 m/s")
 
 
+def test_a_measurement_has_the_numbers_of_the_command_line(coarse, tmp_path):
+    result = sph.run("dam-break-koshizuka", tmp_path, set=coarse, threads=1)
+    found = result.measure("speed", reduce=["max", "mean"], quantile=[0.5], above={"x": "20 mm"}, fit="y")
+    words = "speed --reduce max,mean --quantile 0.5 --above x=20mm --fit y".split()
+    command = [sys.executable, "-m", "sph", "measure", str(tmp_path), *words]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    head, *rows = (line.split(",") for line in told.splitlines())
+    assert list(found) == ["time", "max", "mean", "q0.5", "slope", "rms_about", "at_zero"]
+    assert head[:2] == ["time [s]", "max [m/s]"]
+    assert len(rows) == len(result.times) and found["time"].tolist() == result.times.tolist()
+    assert found.units["max"] == "m/s" and found.units["slope"] == "m/s per m"
+    for frame, highest in zip(result.frames(), found["max"]):
+        speed = np.linalg.norm(frame["velocity"][frame.points[:, 0] > 0.02], axis=1)
+        assert highest == pytest.approx(speed.max())
+    profile = result.measure("velocity.x", along="y", slice="50 mm")
+    assert set(profile) == {"time", "y", "mean"} and len(profile["y"]) > 2 * len(rows)
+    with pytest.raises(sph.UsageError, match="expected one of"):
+        result.measure("y", reduce="most")
+    with pytest.raises(sph.UsageError, match="exclude each other"):
+        result.measure("y", fit="x", along="x")
+
+
 def test_tracks_are_the_rows_of_an_identity(coarse, tmp_path):
     result = sph.run("dam-break-koshizuka", tmp_path / "a", set=coarse)
     (track,) = result.tracks([17]).values()

@@ -1,13 +1,15 @@
-//! Whether two binaries compute the same bits: the first steps of every shipped scene, on one and on two threads.
+//! Whether two binaries compute the same bits: the first steps of every shipped scene, on one, two and four threads.
 //!
 //! ```sh
 //! cargo run -p sph-tests --example same_bits -- OLD/sph NEW/sph [--steps 3] [--ranks] [scenes/NAME.toml …]
 //! ```
 //!
-//! With `--ranks` the second binary runs on two and on four ranks, in place of one and two threads.
+//! With `--ranks` the second binary runs on two and on four ranks, in place of threads; scenes of grains, which have no
+//! ranks, are then left out.
 //!
-//! Compares all columns of the checkpoints, in which every column of state is; prints a checksum per scene and the
-//! columns that differ, with the largest difference over the largest value, and ends with 1 if any does.
+//! Compares all columns of the checkpoints, in which every column of state is, of grains the whole state as one column;
+//! prints a checksum per scene and the columns that differ, with the largest difference over the largest value where
+//! they hold reals, and ends with 1 if any does.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -26,48 +28,33 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let mut steps = "3".to_string();
-    let mut split = ("--threads", [1, 2]);
+    let mut split: (&str, &[usize]) = ("--threads", &[1, 2, 4]);
     let mut scenes = Vec::new();
     while let Some(argument) = given.next() {
         match argument.as_str() {
             "--steps" => steps = given.next().unwrap_or(steps),
-            "--ranks" => split = ("--ranks", [2, 4]),
+            "--ranks" => split = ("--ranks", &[2, 4]),
             scene => scenes.push(PathBuf::from(scene)),
         }
     }
     if scenes.is_empty() {
-        scenes = shipped();
+        scenes = shipped(split.0 != "--ranks");
     }
     let (mut same, mut other) = (0, 0);
     for scene in &scenes {
         let name = scene.file_stem().unwrap_or_default().to_string_lossy();
-        let (option, [few, more]) = split;
-        let all = [
-            (&old, "--threads", 1),
-            (&new, option, few),
-            (&new, option, more),
-        ];
-        let all =
-            all.map(|(binary, option, n)| columns(binary, scene, [option, &n.to_string()], &steps));
-        match all {
-            [Ok(before), Ok(one), Ok(two)] => {
-                let differ = [differing(&before, &one), differing(&before, &two)];
-                if differ.iter().all(Vec::is_empty) {
-                    same += 1;
-                    println!(
-                        "{name}: same, {} columns, {:016x}",
-                        before.len(),
-                        hash(&before)
-                    );
-                } else {
-                    other += 1;
-                    let [one, two] = differ.map(|d| d.join(", "));
-                    println!("{name}: DIFFERS with {option} {few}: {one}; {more}: {two}");
-                }
+        match compared([&old, &new], scene, split, &steps) {
+            Ok((before, differ)) if differ.is_empty() => {
+                same += 1;
+                let (count, sum) = (before.len(), hash(&before));
+                println!("{name}: same, {count} columns, {sum:016x}");
             }
-            [before, one, two] => {
+            Ok((_, differ)) => {
                 other += 1;
-                let why = before.err().or(one.err()).or(two.err()).unwrap_or_default();
+                println!("{name}: DIFFERS with {}: {}", split.0, differ.join("; "));
+            }
+            Err(why) => {
+                other += 1;
                 println!("{name}: NOT RUN: {why}");
             }
         }
@@ -76,14 +63,35 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(other > 0))
 }
 
-/// The scenes of particles of this workspace; those of grains keep another kind of checkpoint.
-fn shipped() -> Vec<PathBuf> {
+/// The columns of the old binary, and those of the new one that differ, by its number of threads or ranks.
+fn compared(
+    [old, new]: [&str; 2],
+    scene: &Path,
+    (option, counts): (&str, &[usize]),
+    steps: &str,
+) -> Result<(Columns, Vec<String>), String> {
+    let before = columns(old, scene, ["--threads", "1"], steps)?;
+    let mut differ = Vec::new();
+    for count in counts.iter().map(usize::to_string) {
+        let found = differing(&before, &columns(new, scene, [option, &count], steps)?);
+        if !found.is_empty() {
+            differ.push(format!("{count}: {}", found.join(", ")));
+        }
+    }
+    Ok((before, differ))
+}
+
+/// The scenes of this workspace.
+fn shipped(with_grains: bool) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let entries = std::fs::read_dir(folder).expect("the folder of scenes");
     let files = entries.map(|e| e.expect("an entry").path());
     let mut scenes: Vec<_> = files
         .filter(|p| p.extension().is_some_and(|e| e == "toml"))
-        .filter(|p| std::fs::read_to_string(p).is_ok_and(|text| !text.contains("[grains]")))
+        .filter(|p| {
+            let text = std::fs::read_to_string(p);
+            text.is_ok_and(|text| with_grains || !text.contains("[grains]"))
+        })
         .collect();
     scenes.sort();
     scenes

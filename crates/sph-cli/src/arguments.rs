@@ -195,9 +195,13 @@ Examples:
   sph measure results/dam-break-koshizuka x --reduce max
   sph measure results/soil-collapse-bui velocity --reduce max,rms --above x=0.2 --below y=50mm
   sph measure results/movable-bed-dambreak-sand y --quantile 0.99 --phase sand --out bed.csv
+  sph measure results/bingham-poiseuille-bn0p1 velocity.x --along y --slice 5mm
+  sph measure results/dam-break-koshizuka pressure --fit y --below x=50mm
 
-A table with a row for every frame of fields.pvd. The field is a column of the frames, of a vector its length, a \
-component (velocity.x) or a coordinate (x, y, z). In a scene the probe `statistic` does the same at every row of the series.
+A table with a row for every frame of fields.pvd, with --along for every slice of every frame. The field is a column \
+of the frames, of a vector its length, a component (velocity.x), a coordinate (x, y, z), speed, kinetic_energy or \
+potential_energy; energies need the column mass. In a scene the probe `statistic` does the same at every row of the \
+series.
 
 Exit codes: 0 measured, 1 the file cannot be written, 2 bad usage.")]
     Measure(MeasureArguments),

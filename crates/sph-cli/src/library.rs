@@ -15,6 +15,7 @@ pub use crate::arguments::{RunArguments, SceneArguments, StudyArguments};
 pub use crate::commands::check::output as check;
 pub use crate::commands::compare::output as compare;
 pub use crate::commands::explain::output as explain;
+pub use crate::commands::measure::{MeasuredTable, table_of_json as measure};
 pub use crate::commands::run::{execute as run, folder};
 pub use crate::commands::study::conduct as study;
 pub use crate::scene_file::{AnyScene, OpenScene, open, open_text};

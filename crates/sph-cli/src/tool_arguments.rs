@@ -4,14 +4,18 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand};
+use serde::{Deserialize, Deserializer};
+use sph_core::Axis;
 use sph_probes::{Reduction, Weight};
 
 /// Arguments of `sph measure`.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct MeasureArguments {
     /// Folder of the results of a run
     pub results: PathBuf,
-    /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z)
+    /// The field, of a vector its length, or a component (velocity.x), or a coordinate (x, y, z), or speed,
+    /// kinetic_energy, potential_energy
     pub field: String,
     /// Reductions of its values
     #[arg(long, value_name = "HOW,…", value_delimiter = ',')]
@@ -19,6 +23,7 @@ pub struct MeasureArguments {
     pub reduce: Vec<Reduction>,
     /// Shares q: the least value that a share q of the weight does not exceed
     #[arg(long, value_name = "Q,…", value_delimiter = ',', value_parser = share)]
+    #[serde(deserialize_with = "shares")]
     pub quantile: Vec<f64>,
     /// The weight of a particle
     #[arg(long, default_value = "one", value_parser = named(&Weight::ALL))]
@@ -32,13 +37,29 @@ pub struct MeasureArguments {
     /// Only particles whose FIELD is below VALUE (may be repeated)
     #[arg(long, value_name = "FIELD=VALUE")]
     pub below: Vec<String>,
+    /// Fit a straight line to the values along an axis: its slope, the root mean square about it, its value at 0 m
+    #[arg(long, value_name = "AXIS", conflicts_with = "along", value_parser = named(&AXES))]
+    pub fit: Option<Axis>,
+    /// A row for every slice across an axis: a profile
+    #[arg(long, value_name = "AXIS", value_parser = named(&AXES))]
+    pub along: Option<Axis>,
+    /// Width of the slices, m [default: two spacings of the particles in the first frame]
+    #[arg(long, value_name = "WIDTH", requires = "along")]
+    pub slice: Option<String>,
+    /// Gravity, m/s², which potential_energy needs
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true)]
+    pub gravity: Option<String>,
     /// Write the table into FILE.csv
     #[arg(long, value_name = "FILE")]
+    #[serde(skip)]
     pub out: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
+    #[serde(skip)]
     pub json: bool,
 }
+
+const AXES: [(Axis, &str); 3] = [(Axis::X, "x"), (Axis::Y, "y"), (Axis::Z, "z")];
 
 /// One of some values by its name.
 fn named<T: Copy + Default + Send + Sync + 'static>(
@@ -56,6 +77,14 @@ fn share(text: &str) -> Result<f64, String> {
         true => Ok(share),
         false => Err("expected a share from 0 to 1".into()),
     }
+}
+
+fn shares<'d, D: Deserializer<'d>>(from: D) -> Result<Vec<f64>, D::Error> {
+    let all = Vec::<f64>::deserialize(from)?.into_iter();
+    let checked = all.map(|q| share(&q.to_string()));
+    checked
+        .collect::<Result<_, _>>()
+        .map_err(serde::de::Error::custom)
 }
 
 /// Arguments of `sph plugins`.

@@ -1,8 +1,12 @@
 //! Measurements that compose: a quantity of particles, the particles that count, and a reduction to numbers.
 
+pub(crate) mod level;
+mod particles;
 mod plan;
 pub(crate) mod presets;
 pub(crate) mod quantity;
 
-pub use presets::Weight;
-pub use quantity::{Reduce, Reduction, WeightedValues};
+pub use particles::MeasuredParticles;
+pub use plan::MeasuringProbe;
+pub use presets::{Statistic, Weight};
+pub use quantity::{Quantity, Reduce, Reduction, Values, WeightedValues};

@@ -21,7 +21,7 @@ All quantities are in SI units. Mistakes are exceptions with the text of the com
 from ._commands import Check, Explanation, check, explain, run, study
 from ._errors import Error, FileError, RunError, SceneError, UsageError
 from ._law import Law
-from ._results import Curves, Frame, Record, Results, Series, StudyResults
+from ._results import Curves, Frame, Measured, Record, Results, Series, StudyResults
 from ._simulation import Simulation
 from ._sph import __version__
 
@@ -33,6 +33,7 @@ __all__ = [
     "FileError",
     "Frame",
     "Law",
+    "Measured",
     "Record",
     "Results",
     "RunError",

@@ -65,7 +65,9 @@ class Series(Mapping[str, np.ndarray]):
     """Columns of a table by name: ``series["time"]`` is a numpy array."""
 
     def __init__(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        columns = _sph.read_table(os.fspath(path))
+        self._take(_sph.read_table(os.fspath(path)))
+
+    def _take(self, columns: Sequence[tuple[str, str, np.ndarray]]) -> None:
         self._columns = {name: values for name, _, values in columns}
         #: Unit of every column.
         self.units = {name: unit for name, unit, _ in columns}
@@ -94,6 +96,13 @@ class Series(Mapping[str, np.ndarray]):
 
 class Curves(Series):
     """A curve of a probe at one output."""
+
+
+class Measured(Series):
+    """Columns that :meth:`Results.measure` finds: a row for every frame, or for every slice of every frame."""
+
+    def __init__(self, columns: Sequence[tuple[str, str, np.ndarray]]) -> None:
+        self._take(columns)
 
 
 class Frame(Mapping[str, np.ndarray]):
@@ -251,6 +260,45 @@ class Results:
                     places.append([frame.time, *frame.points[rows[identity]]])
         width = 1 + self.dimension
         return {identity: np.array(places).reshape(-1, width) for identity, places in wanted.items()}
+
+    def measure(
+        self,
+        field: str,
+        *,
+        reduce: Union[str, Sequence[str]] = "mean",
+        quantile: Sequence[float] = (),
+        weight: str = "one",
+        phase: Optional[str] = None,
+        above: Optional[Mapping[str, Any]] = None,
+        below: Optional[Mapping[str, Any]] = None,
+        fit: Optional[str] = None,
+        along: Optional[str] = None,
+        slice: Union[None, str, float] = None,
+        gravity: Optional[Sequence[Any]] = None,
+    ) -> Measured:
+        """A field of all frames, reduced to numbers: ``sph measure`` with its options.
+
+        ``above`` and ``below`` are bounds by the name of a field, numbers in SI units or texts: ``{"x": "20 cm"}``.
+        """
+
+        def bounds(given: Optional[Mapping[str, Any]]) -> list[str]:
+            return [f"{name}={value}" for name, value in (given or {}).items()]
+
+        arguments = {
+            "results": os.fspath(self.folder),
+            "field": field,
+            "reduce": [reduce] if isinstance(reduce, str) else list(reduce),
+            "quantile": [float(share) for share in quantile],
+            "weight": weight,
+            "phase": phase,
+            "above": bounds(above),
+            "below": bounds(below),
+            "fit": fit,
+            "along": along,
+            "slice": None if slice is None else str(slice),
+            "gravity": None if gravity is None else ",".join(map(str, gravity)),
+        }
+        return Measured(_sph.measure(json.dumps(arguments)))
 
     def _frame(self, time: float) -> Frame:
         here = {name: path for t, name, path in self._listed() if t == time}

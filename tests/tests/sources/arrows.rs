@@ -68,13 +68,16 @@ fn cargo(words: &str) -> String {
     String::from_utf8(output.stdout).expect("a text")
 }
 
-fn rooms() -> BTreeMap<String, Room> {
+fn packages() -> Vec<Value> {
     let told = cargo("metadata --no-deps --offline --format-version 1");
     let metadata: Value = serde_json::from_str(&told).expect("JSON");
-    let packages = metadata["packages"].as_array().expect("packages");
+    metadata["packages"].as_array().expect("packages").clone()
+}
+
+fn rooms() -> BTreeMap<String, Room> {
     let text = |v: &Value| v.as_str().unwrap_or_default().to_string();
     let mut rooms: BTreeMap<String, Room> = BTreeMap::new();
-    for package in packages {
+    for package in packages() {
         let room = rooms.entry(text(&package["name"])).or_default();
         for dependency in package["dependencies"].as_array().into_iter().flatten() {
             let name = text(&dependency["name"]);
@@ -180,6 +183,17 @@ fn heavy_crates_stay_in_their_room() {
             assert!(may, "{name} depends on {heavy} of {home:?}");
         }
     }
+}
+
+/// Each links the crates that it tests once more.
+#[test]
+fn test_binaries_are_at_most_twenty() {
+    let packages = packages();
+    let targets = packages.iter().flat_map(|p| p["targets"].as_array());
+    let tests = targets.flatten().filter(|t| t["kind"][0] == "test");
+    let names: Vec<_> = tests.filter_map(|t| t["name"].as_str()).collect();
+    let count = names.len();
+    assert!((10..=20).contains(&count), "{count}: {names:?}");
 }
 
 /// The solver assembles what scenes name; kinds have the names that its messages advise.

@@ -37,8 +37,8 @@ fn streamlines(arguments: &StreamlineArguments) -> Result<(), Trouble> {
 fn profile(arguments: &ProfileArguments) -> Result<(), Trouble> {
     let path = picture("out", &arguments.out, &["png", "svg"])?;
     let line = Line {
-        from: place("from", &arguments.from)?,
-        to: place("to", &arguments.to)?,
+        from: vector("from", &arguments.from, "m")?,
+        to: vector("to", &arguments.to, "m")?,
         points: arguments.points as usize,
     };
     if line.from == line.to {
@@ -64,7 +64,7 @@ fn tracks(arguments: &TrackArguments) -> Result<(), Trouble> {
     if !arguments.near.is_empty() || identities.is_empty() {
         let start = frames.read(first)?;
         for text in &arguments.near {
-            identities.push(sph_io::curves::nearest(&start, place("near", text)?)?);
+            identities.push(sph_io::curves::nearest(&start, vector("near", text, "m")?)?);
         }
         if identities.is_empty() {
             identities = sph_io::curves::evenly(&start, arguments.count as usize)?;
@@ -106,15 +106,15 @@ pub fn quantity(option: &str, text: &str, unit: &str) -> Result<f64, Trouble> {
     Ok(parse_quantity(text, unit).map_err(|why| format!("--{option}: {why}"))?)
 }
 
-/// Two or three coordinates, m.
-fn place(option: &str, text: &str) -> Result<[f64; 3], Trouble> {
-    let mut place = [0.0; 3];
+/// Two or three components, in SI.
+pub fn vector(option: &str, text: &str, unit: &str) -> Result<[f64; 3], Trouble> {
+    let mut vector = [0.0; 3];
     let parts: Vec<&str> = text.split(',').collect();
     if !(2..=3).contains(&parts.len()) {
         return Err(format!("--{option} {text}: expected X,Y or X,Y,Z").into());
     }
-    for (coordinate, part) in place.iter_mut().zip(parts) {
-        *coordinate = quantity(option, part.trim(), "m")?;
+    for (component, part) in vector.iter_mut().zip(parts) {
+        *component = quantity(option, part.trim(), unit)?;
     }
-    Ok(place)
+    Ok(vector)
 }

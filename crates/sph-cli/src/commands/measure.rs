@@ -1,59 +1,165 @@
 //! `sph measure`: a field of the frames of a run, over particles that fulfil conditions, reduced to numbers.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::json;
-use sph_core::{labelled, parse_quantity, suggestion};
-use sph_io::curves::{Column, Snapshot};
+use sph_core::{Vect, labelled, parse_quantity, some_unit, suggestion};
+use sph_io::curves::Snapshot;
 use sph_io::write_whole;
-use sph_probes::{Reduce, Reduction, Weight, WeightedValues};
+use sph_probes::{MeasuredParticles, MeasuringProbe, Quantity, Reduction, Statistic, Values};
 use sph_run::SUMMARY;
 
-use crate::commands::draw::frames;
+use crate::commands::draw::{frames, quantity, vector};
 use crate::commands::file_list::read_summary;
 use crate::terminal::{CommandOutput, Trouble};
 use crate::tool_arguments::MeasureArguments;
 
-/// A bound on a quantity, as it was given: the option, the quantity, the value.
-type QuantityBound<'a> = (&'static str, &'a str, &'a str);
+/// A table of numbers.
+#[derive(Clone, Debug, Default)]
+pub struct MeasuredTable {
+    /// Names and units of the columns; the unit is empty where there is none.
+    pub columns: Vec<(String, String)>,
+    /// The rows, each with a number for every column.
+    pub rows: Vec<Vec<f64>>,
+}
 
 pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
-    let bounds = bounds(arguments)?;
-    let phase = arguments.phase.as_deref();
-    let phase = phase.map(|name| phase_number(&arguments.results, name));
-    let phase = phase.transpose()?;
-    let frames = frames(&arguments.results)?;
-    let mut unit = String::new();
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for entry in &frames.entries {
-        let frame = frames.read(entry)?;
-        let column = quantity(&frame, &arguments.field)?;
-        let mut row = reduced(&frame, &column, arguments, phase, &bounds)?;
-        row.insert(0, entry.time);
-        rows.push(row);
-        unit = column.unit;
-    }
-    let names = names(arguments, &unit);
-    let mut text = csv(&names, &rows);
+    let table = table(arguments)?;
+    let names = table
+        .columns
+        .iter()
+        .map(|(name, unit)| labelled(name, unit));
+    let names: Vec<String> = names.collect();
+    let mut text = csv(&names, &table.rows);
     if let Some(file) = &arguments.out {
         write_whole(file, &text)?;
-        text = format!("{} frames in {}\n", rows.len(), file.display());
+        let many = match arguments.along {
+            None => "frames",
+            Some(_) => "slices",
+        };
+        text = format!("{} {many} in {}\n", table.rows.len(), file.display());
     }
-    let json = json!({ "columns": names, "rows": rows });
+    let json = json!({ "columns": names, "rows": table.rows });
     CommandOutput { json, text }.print(arguments.json);
     Ok(())
 }
 
-fn names(arguments: &MeasureArguments, unit: &str) -> Vec<String> {
+/// The table that `sph measure` prints, for arguments as JSON.
+///
+/// # Errors
+/// Arguments that are none, and a mistake in them.
+pub fn table_of_json(arguments: &str) -> Result<MeasuredTable, Trouble> {
+    let arguments = serde_json::from_str(arguments);
+    table(&arguments.map_err(|e: serde_json::Error| e.to_string())?)
+}
+
+fn table(arguments: &MeasureArguments) -> Result<MeasuredTable, Trouble> {
+    if arguments.fit.is_some() && arguments.along.is_some() {
+        return Err(Trouble::usage("--fit and --along exclude each other"));
+    }
+    let bounds = bounds(arguments)?;
+    let phase = arguments.phase.as_deref();
+    let phase = phase.map(|name| phase_number(&arguments.results, name));
+    let phase = phase.transpose()?.map(|number| number as u32);
+    let gravity = arguments.gravity.as_deref();
+    let gravity = gravity.map(|text| vector("gravity", text, "m/s^2"));
+    let gravity = gravity.transpose()?.map(Vect::from);
+    let frames = frames(&arguments.results)?;
+    let width = match &arguments.slice {
+        None => 2.0 * frames.spacing,
+        Some(text) => quantity("slice", text, "m")?,
+    };
+    if width <= 0.0 {
+        return Err(format!("--slice {width}: expected a width above zero").into());
+    }
+    let mut measured = None;
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for entry in &frames.entries {
+        let frame = frames.read(entry)?;
+        let of = FrameParticles { frame, gravity };
+        if measured.is_none() {
+            let (_, unit) = Quantity::named(&arguments.field).values(&of)?;
+            let probe = MeasuringProbe::from(statistic(arguments, &bounds, &of)?);
+            measured = Some((unit, probe.with_phase_number(phase)));
+        }
+        let Some((_, probe)) = &measured else {
+            continue;
+        };
+        let mut found = match arguments.along {
+            None => vec![probe.values(&of)?],
+            Some(axis) => probe.profile(&of, (axis.number(), width))?,
+        };
+        if let (Some(axis), Some(row)) = (arguments.fit, found.first_mut()) {
+            row.extend(probe.line(&of, axis.number())?);
+        }
+        let timed = |row: Vec<f64>| [&[entry.time], &row[..]].concat();
+        rows.extend(found.into_iter().map(timed));
+    }
+    let unit = measured.map(|(unit, _)| unit).unwrap_or_default();
+    let columns = columns(arguments, &unit);
+    Ok(MeasuredTable { columns, rows })
+}
+
+/// The measurement that the probe `statistic` of a scene would be, with bounds in the units of a frame.
+fn statistic(
+    arguments: &MeasureArguments,
+    bounds: &[QuantityBound<'_>],
+    of: &FrameParticles,
+) -> Result<Statistic, Trouble> {
+    let (mut above, mut below) = (BTreeMap::new(), BTreeMap::new());
+    for (option, name, value) in bounds {
+        let (_, unit) = Quantity::named(name).values(of)?;
+        let value = parse_quantity(value, &unit);
+        let value = value.map_err(|why| format!("--{option} {name}: {why}"))?;
+        // Of several bounds the narrowest counts.
+        let (all, narrower): (_, fn(f64, f64) -> f64) = match *option {
+            "above" => (&mut above, f64::max),
+            _ => (&mut below, f64::min),
+        };
+        let bound = all.entry(name.to_string()).or_insert(value);
+        *bound = narrower(*bound, value);
+    }
+    Ok(Statistic {
+        field: arguments.field.clone(),
+        reduce: arguments.reduce.clone(),
+        quantiles: arguments.quantile.clone(),
+        levels: Vec::new(),
+        weight: arguments.weight,
+        phase: arguments.phase.clone(),
+        above,
+        below,
+        fit: None,
+        along: None,
+        slice: 1.0,
+        scale: 1.0,
+    })
+}
+
+fn columns(arguments: &MeasureArguments, unit: &str) -> Vec<(String, String)> {
+    let unit = some_unit(unit).unwrap_or_default();
+    let named = |name: String| (name, unit.to_string());
     let reductions = arguments.reduce.iter().map(|how| match how {
-        Reduction::Share => how.name().to_string(),
-        Reduction::Total => format!("{} [{}]", how.name(), arguments.weight.unit()),
-        _ => labelled(how.name(), unit),
+        Reduction::Share => (how.name().into(), String::new()),
+        Reduction::Total => (how.name().into(), arguments.weight.unit().into()),
+        _ => named(how.name().into()),
     });
     let quantiles = arguments.quantile.iter();
-    let quantiles = quantiles.map(|share| labelled(&format!("q{share}"), unit));
-    let time = std::iter::once("time [s]".to_string());
-    time.chain(reductions).chain(quantiles).collect()
+    let quantiles = quantiles.map(|share| named(format!("q{share}")));
+    let mut all = vec![("time".to_string(), "s".to_string())];
+    all.extend(
+        arguments
+            .along
+            .map(|axis| (["x", "y", "z"][axis.number()].into(), "m".into())),
+    );
+    all.extend(reductions.chain(quantiles));
+    if arguments.fit.is_some() {
+        let slope = if unit.is_empty() { "1" } else { unit };
+        all.push(("slope".into(), format!("{slope} per m")));
+        all.extend(["rms_about", "at_zero"].map(|name| named(name.into())));
+    }
+    all
 }
 
 fn csv(names: &[String], rows: &[Vec<f64>]) -> String {
@@ -62,6 +168,9 @@ fn csv(names: &[String], rows: &[Vec<f64>]) -> String {
     let lines = lines.map(|cells: Vec<String>| cells.join(",") + "\n");
     lines.collect()
 }
+
+/// A bound on a quantity, as it was given: the option, the quantity, the value.
+type QuantityBound<'a> = (&'static str, &'a str, &'a str);
 
 fn bounds(arguments: &MeasureArguments) -> Result<Vec<QuantityBound<'_>>, Trouble> {
     let above = arguments.above.iter().map(|text| ("above", text));
@@ -75,65 +184,66 @@ fn bounds(arguments: &MeasureArguments) -> Result<Vec<QuantityBound<'_>>, Troubl
     each.collect()
 }
 
-/// The values of a quantity: a field of the frame, a component of it, or a coordinate.
-fn quantity(frame: &Snapshot, name: &str) -> Result<Column, Trouble> {
-    let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
-    match axis {
-        None => Ok(frame.column(name)?),
-        Some(axis) => Ok(Column {
-            label: format!("{name} [m]"),
-            unit: "m".into(),
-            values: frame.points().iter().map(|x| x[axis]).collect(),
-        }),
-    }
+/// The particles of a frame, as a probe measures those of a flow. Vectors have three components in the plane, too.
+struct FrameParticles {
+    frame: Snapshot,
+    gravity: Option<Vect<3>>,
 }
 
-fn reduced(
-    frame: &Snapshot,
-    column: &Column,
-    arguments: &MeasureArguments,
-    phase: Option<usize>,
-    bounds: &[QuantityBound<'_>],
-) -> Result<Vec<f64>, Trouble> {
-    let all = 0..column.values.len();
-    let of_phase: Vec<usize> = match phase {
-        None => all.collect(),
-        // A scene of one phase has no column of phases.
-        Some(number) => match frame.column("phase") {
-            Ok(phases) => all.filter(|k| phases.values[*k] == number as f64).collect(),
-            Err(_) if number == 0 => all.collect(),
-            Err(error) => return Err(error.into()),
-        },
-    };
-    let mut own = of_phase.clone();
-    for (option, name, value) in bounds {
-        let of = quantity(frame, name)?;
-        let value = parse_quantity(value, &of.unit);
-        let value = value.map_err(|why| format!("--{option} {name}: {why}"))?;
-        own.retain(|k| match *option {
-            "above" => of.values[*k] > value,
-            _ => of.values[*k] < value,
-        });
+impl MeasuredParticles<3> for FrameParticles {
+    type Error = Trouble;
+    type Unit = String;
+
+    fn count(&self) -> usize {
+        self.frame.points().len()
     }
-    let weights = match arguments.weight {
-        Weight::One => None,
-        weight => Some(quantity(frame, weight.name())?.values),
-    };
-    let of = |numbers: &[usize]| -> Option<Vec<f64>> {
-        let weights = weights.as_ref()?;
-        Some(numbers.iter().map(|k| weights[*k]).collect())
-    };
-    let values: Vec<f64> = own.iter().map(|k| column.values[*k]).collect();
-    let own_weights = of(&own);
-    let weighed = WeightedValues {
-        values: &values,
-        weights: own_weights.as_deref(),
-        whole: of(&of_phase).map_or(of_phase.len() as f64, |all| all.iter().sum()),
-    };
-    let reductions = arguments.reduce.iter().map(|how| Reduce::By(*how));
-    let quantiles = arguments.quantile.iter();
-    let all = reductions.chain(quantiles.map(|share| Reduce::Quantile(*share)));
-    Ok(all.map(|how| weighed.reduced(how)).collect())
+
+    fn positions(&self) -> Result<Cow<'_, [Vect<3>]>, Trouble> {
+        let points = self.frame.points().iter();
+        Ok(points.map(|x| Vect::from(*x)).collect())
+    }
+
+    fn velocities(&self) -> Result<Cow<'_, [Vect<3>]>, Trouble> {
+        let all = self.frame.velocity()?;
+        let vectors = all.chunks_exact(3);
+        Ok(vectors.map(Vect::from_column_slice).collect())
+    }
+
+    /// A frame may have this alone.
+    fn speeds(&self) -> Result<Values<'_, String>, Trouble> {
+        self.column("speed")
+    }
+
+    fn gravity(&self) -> Result<Vect<3>, Trouble> {
+        let none = "frames hold no gravity: give --gravity X,Y[,Z]";
+        self.gravity.ok_or_else(|| Trouble::usage(none))
+    }
+
+    fn column(&self, name: &str) -> Result<Values<'_, String>, Trouble> {
+        let column = self.frame.column(name)?;
+        let values = column.values;
+        Ok((Box::new(move |k| values[k]), column.unit))
+    }
+
+    fn in_phase(
+        &self,
+        name: Option<&str>,
+        number: Option<u32>,
+    ) -> Result<Box<dyn Fn(usize) -> bool + '_>, Trouble> {
+        let Some(number) = name.and(number) else {
+            return Ok(Box::new(|_| true));
+        };
+        match self.column("phase") {
+            Ok((phases, _)) => Ok(Box::new(move |k| phases(k) == f64::from(number))),
+            // A scene of one phase has no column of phases.
+            Err(_) if number == 0 => Ok(Box::new(|_| true)),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn spacing(&self) -> f64 {
+        self.frame.spacing
+    }
 }
 
 /// The number of a phase: its place among the laws in the summary of the run.

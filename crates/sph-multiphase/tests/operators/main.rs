@@ -1,4 +1,4 @@
-//! The discrete operators against the numbers of the theory, on lattices and in disorder.
+//! The discrete operators against the numbers of the theory, on lattices and in disorder; solvers of linear systems.
 
 mod channel;
 mod conservation;
@@ -15,6 +15,7 @@ mod renormalised;
 mod shifting;
 mod smoother;
 mod smoothers;
+mod solvers;
 mod state;
 mod walls;
 mod world;

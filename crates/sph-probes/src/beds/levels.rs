@@ -4,6 +4,7 @@ use sph_core::bed::Bed;
 use sph_core::{StepError, fields, plugin, suggestion};
 use sph_neighbours::World;
 
+use crate::measure::level::highest_place;
 use crate::measure::presets::Direction;
 use crate::phases::phase::{self, CountedPhase};
 use crate::{Curves, Probe, ProbeColumn, ProbeEntry, ProbeScene};
@@ -161,9 +162,6 @@ pub struct ConcentrationLevel {
     pub concentration: f64,
 }
 
-/// Parts of a spacing between the heights at which the concentration is looked at.
-const PARTS: f64 = 4.0;
-
 impl<const D: usize> Probe<D> for ConcentrationLevel {
     fn columns(&self) -> Vec<ProbeColumn> {
         ProbeColumn::only("m")
@@ -175,45 +173,9 @@ impl<const D: usize> Probe<D> for ConcentrationLevel {
             StepError::stage("probe `concentration-level`", reason)
         })?;
         let (position, mass) = world.free.all((fields::POSITION, fields::MASS))?;
-        let mut grains: Vec<[f64; 3]> = (0..position.len())
-            .map(|k| [position[k][D - 1], mass[k], concentration[k]])
-            .collect();
-        grains.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
-        let (Some(top), Some(bottom)) = (grains.first(), grains.last()) else {
-            return Ok(vec![f64::NAN]);
-        };
-        let (spacing, step) = (world.spacing, world.spacing / PARTS);
-        let mut first = 0;
-        let mut above: Option<[f64; 2]> = None;
-        let count = ((top[0] - bottom[0]) / step).floor() as usize;
-        for k in 0..=count {
-            let z = top[0] - step * k as f64;
-            first += grains[first..].partition_point(|grain| grain[0] > z + spacing);
-            let near = grains[first..]
-                .iter()
-                .take_while(|grain| grain[0] > z - spacing);
-            let (mut whole, mut weight) = (0.0, 0.0);
-            for [height, mass, concentration] in near {
-                let share = mass * (1.0 - (height - z).abs() / spacing);
-                whole += share * concentration;
-                weight += share;
-            }
-            if weight <= 0.0 {
-                continue;
-            }
-            let here = whole / weight;
-            if here >= self.concentration {
-                let crossing = match above {
-                    Some([before, height]) => {
-                        height + (z - height) * (self.concentration - before) / (here - before)
-                    }
-                    None => z,
-                };
-                return Ok(vec![crossing]);
-            }
-            above = Some([here, z]);
-        }
-        Ok(vec![f64::NAN])
+        let grains = (0..position.len()).map(|k| [position[k][D - 1], mass[k], concentration[k]]);
+        let level = highest_place(grains.collect(), world.spacing, self.concentration);
+        Ok(vec![level])
     }
 }
 

@@ -48,6 +48,10 @@ impl Weight {
 /// is a column (`pressure`; of a vector or tensor its magnitude), a component (`velocity.x`), a coordinate (`x`, `y`,
 /// `z`), or one of `speed`, `kinetic_energy` and `potential_energy`. Bounds and values are in SI units.
 ///
+/// `levels = [0.05]` adds the highest place at which the values come up to 0.05, in the field's own unit: the surface of
+/// a deposit or of a heated layer. The mean over the particles within a spacing counts, weighed with `weight` and
+/// 1 − |Δz|/δr; it is linear between heights a quarter of a spacing apart. NaN where the values do not come up to it.
+///
 /// `fit = "x"` adds slope and root mean square distance of the line through the values over that coordinate. `along =
 /// "y"` writes the columns as curves over slices across that axis, with every output of fields.
 ///
@@ -71,6 +75,9 @@ pub struct Statistic {
     /// Shares q: a column for the least value that a share q of the weight does not exceed.
     #[parameter(default, unit: "1", min: 0.0, max: 1.0)]
     pub quantiles: Vec<f64>,
+    /// Values of the quantity: a column for the highest place at which it comes up to each.
+    #[parameter(default)]
+    pub levels: Vec<f64>,
     /// The weight of a particle.
     #[parameter(default)]
     pub weight: Weight,
@@ -107,7 +114,7 @@ impl Statistic {
 
 impl From<Statistic> for MeasuringProbe {
     fn from(own: Statistic) -> Self {
-        let count = own.reduce.len() + own.quantiles.len();
+        let count = own.reduce.len() + own.quantiles.len() + own.levels.len();
         let suffix = |name: String| match count {
             1 => String::new(),
             _ => format!(".{name}"),
@@ -116,7 +123,12 @@ impl From<Statistic> for MeasuringProbe {
         let quantile = |q: &f64| own.column(&suffix(format!("q{q}")), Reduce::Quantile(*q));
         let reduced = own.reduce.iter().map(reduced);
         let quantiles = own.quantiles.iter().map(quantile);
-        let columns: Vec<PlannedColumn> = reduced.chain(quantiles).collect();
+        let level = |value: &f64| {
+            let suffix = suffix(format!("level{value}"));
+            PlannedColumn::new(&suffix, &own.field, Reduction::Mean).at_level(*value)
+        };
+        let levels = own.levels.iter().map(level);
+        let columns: Vec<PlannedColumn> = reduced.chain(quantiles).chain(levels).collect();
         let above = own.above.iter().map(|(name, least)| above(name, *least));
         let below = own.below.iter().map(|(name, most)| below(name, *most));
         MeasuringProbe {

@@ -6,8 +6,8 @@ use super::common::{built, fill, near, put, world};
 
 const SPACING: f64 = 0.05;
 
-/// Twelve rows: six packed ones, four of a suspension, two clear.
-fn height(of: f64) -> f64 {
+/// By both probes, of twelve rows: six packed ones, four of a suspension, two clear.
+fn heights(of: f64) -> [f64; 2] {
     let mut free = Store::<2>::new(36);
     let at = |n: u32| (f64::from(n) + 0.5) * SPACING;
     let place = |k: u32| Vect::from([at(k % 3), at(k / 3)]);
@@ -19,14 +19,22 @@ fn height(of: f64) -> f64 {
     put(&mut free, fields::POSITION, (0..36).map(place));
     fill(&mut free, fields::MASS, 2.0);
     put(&mut free, fields::CONCENTRATION, (0..36).map(concentration));
-    let probe = built("concentration-level", &format!("concentration = {of}"));
-    probe.measure(&world(free, SPACING)).unwrap()[0]
+    let world = world(free, SPACING);
+    let level = |kind: &str, keys: String| built(kind, &keys).measure(&world).unwrap()[0];
+    let keys = "field = 'concentration'\nweight = 'mass'\nreduce = []";
+    [
+        level("concentration-level", format!("concentration = {of}")),
+        level("statistic", format!("{keys}\nlevels = [{of}]")),
+    ]
 }
 
 /// Halfway between the concentrations of two rows the interface is halfway between them.
 #[test]
 fn interfaces_are_between_their_rows() {
-    near(height(0.05), 10.0 * SPACING);
-    near(height(0.35), 6.0 * SPACING);
-    assert!(height(0.7).is_nan());
+    for (of, rows) in [(0.05, 10.0), (0.35, 6.0)] {
+        for height in heights(of) {
+            near(height, rows * SPACING);
+        }
+    }
+    assert!(heights(0.7).iter().all(|height| height.is_nan()));
 }

@@ -41,9 +41,32 @@ fn frames_are_reduced_over_phases_and_bounds() {
         rows("y --quantile 0.5,1 --reduce max --phase heavy"),
         &[0.5, 0.25, 0.5],
     );
+    // ½ m u² of particles of 2.5 kg, and −m g·r at a mean height of 0.25 m.
+    near(rows("kinetic_energy --phase heavy"), &[0.3125]);
+    near(
+        rows("potential_energy --gravity 0,-10 --phase heavy"),
+        &[6.25],
+    );
+    // Along x nothing changes; y itself is a line.
+    near(
+        rows("velocity.x --fit x --phase heavy"),
+        &[0.5, 0.0, 0.0, 0.5],
+    );
+    near(rows("y --fit y --phase light"), &[0.625, 1.0, 0.0, 0.0]);
     bench.done("measure a y --out heights.csv");
     let written = bench.read("heights.csv");
     assert!(written.starts_with("time [s],mean [m]\n"), "{written}");
+    let profile = bench
+        .done("measure a velocity.x --reduce mean,total --along y --slice 210mm")
+        .out;
+    let head = "time [s],y [m],mean [m/s],total [1]\n";
+    assert!(profile.starts_with(head), "{profile}");
+    assert_eq!(profile.lines().count(), 1 + 4, "{profile}");
+    // The last slice, of two rows of 20 particles at rest.
+    near(
+        rows("velocity.x --reduce mean,total --along y --slice 210mm"),
+        &[0.735, 0.0, 40.0],
+    );
 }
 
 #[test]
@@ -57,6 +80,10 @@ fn mistakes_are_named() {
         ("a y --above x=2kg", "--above x"),
         ("a y --reduce most", "possible values"),
         ("a y --quantile 2", "a share from 0 to 1"),
+        ("a y --fit x --along x", "cannot be used with"),
+        ("a y --slice 1mm", "--along"),
+        ("a y --along x --slice 0", "a width above zero"),
+        ("a potential_energy", "give --gravity X,Y[,Z]"),
         ("b y", "there is no fields.pvd in b"),
     ] {
         bench.refused(&format!("measure {keys}")).says(said);

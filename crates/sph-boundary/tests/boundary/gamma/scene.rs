@@ -76,6 +76,11 @@ impl Errors {
         }
         let worst = self.0.iter().flatten().fold(0.0, |a: f64, b| a.max(*b));
         assert!(worst <= crate::gamma::TOLERANCE, "{what}: off by {worst:e}");
+        let gamma = self.0.iter().fold(0.0, |a: f64, [gamma, _]| a.max(*gamma));
+        assert!(
+            gamma <= crate::gamma::OF_GAMMA,
+            "{what}: γ is off by {gamma:e}"
+        );
         assert!(!self.0.is_empty(), "{what}: nothing was compared");
     }
 }

@@ -9,7 +9,7 @@ use sph_multiphase::linear::{
 };
 use sph_neighbours::inner;
 
-use crate::systems::{apart, dense, right};
+use super::systems::{apart, dense, right};
 
 /// Rows of one hand.
 const ROWS: usize = 40;

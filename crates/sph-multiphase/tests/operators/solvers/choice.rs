@@ -3,7 +3,7 @@
 use sph_core::Vect;
 use sph_multiphase::linear::{Automatic, Cholesky, LinearSolver, Matrix, Report};
 
-use crate::systems::{apart, block, right, scalar};
+use super::systems::{apart, block, right, scalar};
 
 fn taken<const D: usize>(matrix: &Matrix<D>) -> (Report, Vec<Vect<D>>) {
     let b = right(matrix.rows());
