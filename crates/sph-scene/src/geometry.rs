@@ -10,3 +10,4 @@ pub(crate) mod solid;
 pub(crate) mod surround;
 pub(crate) mod vector;
 pub(crate) mod wall_geometry;
+pub(crate) mod zone_shape;

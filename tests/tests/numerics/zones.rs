@@ -73,6 +73,26 @@ fn uniform(scene: &str) {
     }
 }
 
+/// Turbulent energy decays alike in both flows, dk/dt = −ε and dε/dt = −1.92 ε²/k: k = k₀ (1 + 0.92 ε₀t/k₀)^(−1/0.92). New
+/// particles have that of their parents, not that of the start, which is twice as much.
+#[test]
+fn a_zone_has_the_turbulence_of_the_flow_that_passes_it() {
+    let closure = "[eddy-viscosity.k-epsilon]\nenergy = 1e-6\ndissipation = 1e-6\n[smoother";
+    let bench = bench!(
+        &UNIFORM
+            .replace("jitter = 0.2\n", "")
+            .replace("[smoother", closure)
+    );
+    bench.done("run scene.toml --quiet --out out");
+    let decayed = 1e-6 * (1.0_f64 + 0.92).powf(-1.0 / 0.92);
+    for file in ["out/checkpoint.sph", "out/checkpoint-middle.sph"] {
+        let all = column(&bench, file, "turbulent_energy");
+        for energy in all {
+            assert!((energy / decayed - 1.0).abs() < 0.01, "{file}: {energy:e}");
+        }
+    }
+}
+
 /// Probes of a zone within a zone see the particles of that.
 #[test]
 fn a_nested_zone_measures_its_own_probes() {
@@ -130,8 +150,15 @@ fn a_run_with_zones_does_not_begin_from_another() {
 
 #[test]
 fn zones_that_do_not_fit_are_refused() {
-    for case in refusals(include_str!("zones.refused")) {
-        let bench = bench!(&case.of(&dam()));
+    let dam = dam();
+    let of_dam = refusals(include_str!("zones.refused"))
+        .into_iter()
+        .map(|case| (&*dam, case));
+    let of_flow = refusals(include_str!("zones_uniform.refused"))
+        .into_iter()
+        .map(|case| (UNIFORM, case));
+    for (scene, case) in of_dam.chain(of_flow) {
+        let bench = bench!(&case.of(scene));
         let refused = bench.refused(&format!("run scene.toml --quiet --out out {}", case.at));
         one_line(&refused.err).says(case.said[0]);
         assert!(!bench.path("out/series.csv").exists(), "nothing is written");

@@ -5,7 +5,8 @@ use std::sync::{Mutex, MutexGuard};
 use sph_core::{Axis, StepError, Vect, fields, plugin};
 use sph_neighbours::World;
 
-use crate::measure::quantity::{AXES, Quantity};
+use crate::measure::particles::AXES;
+use crate::measure::quantity::Quantity;
 use crate::norm::at;
 use crate::{Curves, Gathers, Needs, Probe, ProbeColumn, ProbeEntry};
 

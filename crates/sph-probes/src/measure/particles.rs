@@ -5,8 +5,30 @@ use std::borrow::Cow;
 use sph_core::{Plain, StepError, Vect, fields, suggestion};
 use sph_neighbours::World;
 
-use super::quantity::{MADE, Values, parts};
 use crate::phases::phase::CountedPhase;
+
+/// Quantities that are made of columns, with their units.
+pub(crate) const MADE: [(&str, &str); 6] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("z", "m"),
+    ("speed", "m/s"),
+    ("kinetic_energy", "J"),
+    ("potential_energy", "J"),
+];
+
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The values of a quantity by the number of the particle, with their unit.
+pub type Values<'a, U> = (Box<dyn Fn(usize) -> f64 + 'a>, U);
+
+/// The name of a column, and the number of its component if a component is named.
+pub(crate) fn parts(name: &str) -> (&str, Option<usize>) {
+    let axis = |part: &str| AXES.iter().position(|axis| *axis == part);
+    let parts = name.split_once('.');
+    let component = parts.and_then(|(column, part)| Some((column, Some(axis(part)?))));
+    component.unwrap_or((name, None))
+}
 
 /// Particles with columns, of which a [`MeasuringProbe`](crate::MeasuringProbe) measures quantities.
 pub trait MeasuredParticles<const D: usize> {

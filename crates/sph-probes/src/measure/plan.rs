@@ -6,8 +6,8 @@ use sph_core::StepError;
 use sph_neighbours::World;
 
 use super::level::highest_place;
-use super::particles::MeasuredParticles;
-use super::quantity::{AXES, Quantity, Reduce, WeightedValues};
+use super::particles::{AXES, MeasuredParticles};
+use super::quantity::{Quantity, Reduce, WeightedValues};
 use crate::phases::phase;
 use crate::{Curves, Needs, Probe, ProbeColumn, ProbeScene, norm};
 

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use sph_core::{Axis, fields, parameters, plugin};
 
+use super::particles::AXES;
 use super::plan::{MeasuringProbe, PlannedColumn, above, below};
-use super::quantity::{AXES, Quantity, Reduce, Reduction};
+use super::quantity::{Quantity, Reduce, Reduction};
 use crate::ProbeEntry;
 
 /// The weight of a particle.

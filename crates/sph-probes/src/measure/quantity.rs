@@ -2,35 +2,12 @@
 
 use sph_core::{fields, parameters};
 
-use super::particles::MeasuredParticles;
-
-/// Quantities that are made of columns, with their units.
-pub(crate) const MADE: [(&str, &str); 6] = [
-    ("x", "m"),
-    ("y", "m"),
-    ("z", "m"),
-    ("speed", "m/s"),
-    ("kinetic_energy", "J"),
-    ("potential_energy", "J"),
-];
-
-pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+use super::particles::{AXES, MADE, MeasuredParticles, Values, parts};
 
 /// A quantity that every particle has, by its name: a column, of several components their magnitude (`pressure`), a
 /// component of one (`velocity.x`), or one that is made of columns (`x`, `speed`, `kinetic_energy`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity(String);
-
-/// The values of a quantity by the number of the particle, with their unit.
-pub type Values<'a, U> = (Box<dyn Fn(usize) -> f64 + 'a>, U);
-
-/// The name of a column, and the number of its component if a component is named.
-pub(crate) fn parts(name: &str) -> (&str, Option<usize>) {
-    let axis = |part: &str| AXES.iter().position(|axis| *axis == part);
-    let parts = name.split_once('.');
-    let component = parts.and_then(|(column, part)| Some((column, Some(axis(part)?))));
-    component.unwrap_or((name, None))
-}
 
 impl Quantity {
     /// The quantity of a name.

@@ -1,12 +1,10 @@
-//! All that is near a wall, and the shapes of zones.
+//! All that is near a wall.
 
 use std::sync::Arc;
 
 use sph_core::{BoxTree, bounds, nearest_place};
 
-use crate::geometry::periodic_place::fills;
-use crate::geometry::vector::{array, distance};
-use crate::{Scene, Shape, Wall, Zone};
+use crate::geometry::vector::distance;
 
 /// All places within a distance of a wall, on both of its sides; along a period that the wall spans it has no ends.
 #[derive(Clone, Debug)]
@@ -25,19 +23,15 @@ impl<const D: usize> PartialEq for Surround<D> {
 }
 
 impl<const D: usize> Surround<D> {
-    /// Places within a distance of a wall, m, in a scene; none if the wall has no elements in D dimensions.
-    fn new(scene: &Scene, wall: &Wall, distance: f64) -> Option<Self> {
-        let spacing = scene.numerics.spacing;
-        let elements = elements::<D>(wall, spacing);
-        let [low, high] = bounds(elements.iter().flatten().copied());
-        let periods = scene.numerics.periodic.bounds::<D>();
+    /// Places within a distance, m, of segments or triangles, one or more; it has no ends along some axes.
+    pub(crate) fn new(elements: Vec<[[f64; D]; D]>, distance: f64, endless: [bool; D]) -> Self {
         let boxes = elements.iter().map(|corners| bounds(*corners)).collect();
-        (!elements.is_empty()).then(|| Surround {
+        Surround {
             tree: Arc::new(BoxTree::new(boxes)),
             elements: Arc::new(elements),
             distance,
-            endless: fills((&low, &high), spacing, &periods),
-        })
+            endless,
+        }
     }
 
     /// Distance of a point from its surface, m, positive inside.
@@ -58,101 +52,8 @@ impl<const D: usize> Surround<D> {
         (corner(low, -1.0), corner(high, 1.0))
     }
 
-    /// How much farther it reaches than one around the same wall, m; none around another wall.
+    /// Distance, m, by which it reaches beyond one around the same wall; none around another wall.
     pub(crate) fn beyond(&self, other: &Self) -> Option<f64> {
         (self.elements == other.elements).then_some(self.distance - other.distance)
-    }
-}
-
-/// Segments of a wall in the plane, its triangles in space.
-fn elements<const D: usize>(wall: &Wall, spacing: f64) -> Vec<[[f64; D]; D]> {
-    if D == 3 {
-        let facets = wall.facets("", spacing).unwrap_or_default();
-        let corner = |k: &u32| array(&facets.points[*k as usize]);
-        let corners = |t: &[u32; 3]| std::array::from_fn(|k| corner(&t[k]));
-        return facets.triangles.iter().map(corners).collect();
-    }
-    let lines = wall.lines("", spacing).unwrap_or_default();
-    let segments = lines.iter().flat_map(|line| {
-        let next = line.points.iter().cycle().skip(1);
-        let count = line.points.len() - usize::from(!line.closed);
-        line.points.iter().zip(next).take(count)
-    });
-    let corners = |(from, to): (&[f64; 2], &[f64; 2])| {
-        std::array::from_fn(|k| array(if k == 0 { from } else { to }))
-    };
-    segments.map(corners).collect()
-}
-
-impl Zone {
-    /// Its shape in a scene, if it has one in D dimensions.
-    pub fn shape_in<const D: usize>(&self, scene: &Scene) -> Option<Shape<D>> {
-        match &self.near {
-            Some(near) => {
-                let wall = scene.wall.get(&near.wall)?;
-                Surround::new(scene, wall, near.distance).map(Shape::Surround)
-            }
-            None => self.shape.shape(),
-        }
-    }
-
-    /// The wall that carries it: that which it follows, else that which it is near to, if it moves.
-    pub fn carrier<'a>(&'a self, scene: &Scene) -> Option<&'a String> {
-        let moves = |wall: &Wall| wall.motion.is_some() || !wall.mover.is_empty();
-        let near = self.near.as_ref().map(|near| &near.wall);
-        let moving = near.filter(|wall| scene.wall.get(*wall).is_some_and(moves));
-        self.follows.as_ref().or(moving)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn scene(walls: &str) -> Scene {
-        let text = format!(
-            "title = \"near\"\ndimension = 2\nrun.end = 1.0\nnumerics.spacing = 0.1\nnumerics.smoothing_ratio = 2.0\n\
-             numerics.periodic.x = [0.0, 4.0]\n[zone.near]\nnear = {{ wall = \"floor\", distance = 0.5 }}\n{walls}"
-        );
-        let table: toml::Table = text.parse().expect("TOML");
-        table.try_into().expect("a scene")
-    }
-
-    #[test]
-    fn depths_are_distances_from_the_wall() {
-        let step = scene("[wall.floor]\npolyline = [[1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]\n");
-        let shape = step.zone["near"].shape_in::<2>(&step).expect("a shape");
-        for (x, depth) in [
-            ([1.5, 0.2], 0.3),
-            ([1.5, -0.2], 0.3),
-            ([2.6, 0.5], -0.1),
-            ([0.7, -0.4], 0.0),
-            ([2.3, 1.4], 0.0),
-        ] {
-            assert!((shape.depth(&x) - depth).abs() < 1e-15, "{x:?}");
-        }
-        assert_eq!(shape.bounds(), ([0.5, -0.5], [2.5, 1.5]));
-    }
-
-    #[test]
-    fn a_wall_through_the_period_has_no_ends() {
-        let floor = scene("[wall.floor]\npolyline = [[0.0, 0.0], [4.0, 0.0]]\n");
-        let shape = floor.zone["near"].shape_in::<2>(&floor).expect("a shape");
-        let (low, high) = shape.bounds();
-        assert_eq!([low[1], high[1]], [-0.5, 0.5]);
-        assert_eq!([low[0], high[0]], [f64::NEG_INFINITY, f64::INFINITY]);
-        assert!((shape.depth(&[4.0, 0.1]) - 0.4).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_zone_near_a_moving_wall_follows_it() {
-        let still = scene("[wall.floor]\ndisc = { centre = [1.0, 0.0], radius = 0.2 }\n");
-        assert_eq!(still.zone["near"].carrier(&still), None);
-        let moving = "[wall.floor]\ndisc = { centre = [1.0, 0.0], radius = 0.2 }\nmotion.velocity = [1.0, 0.0]\n";
-        let moving = scene(moving);
-        assert_eq!(
-            moving.zone["near"].carrier(&moving),
-            Some(&"floor".to_string())
-        );
     }
 }
