@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::json;
-use sph_core::{Vect, labelled, parse_quantity, some_unit, suggestion};
+use sph_core::{Vect, parse_quantity, some_unit, suggestion};
 use sph_io::curves::Snapshot;
 use sph_io::write_whole;
 use sph_probes::{MeasuredParticles, MeasuringProbe, Quantity, Reduction, Statistic, Values};
@@ -27,11 +27,11 @@ pub struct MeasuredTable {
 
 pub fn command(arguments: &MeasureArguments) -> Result<(), Trouble> {
     let table = table(arguments)?;
-    let names = table
-        .columns
-        .iter()
-        .map(|(name, unit)| labelled(name, unit));
-    let names: Vec<String> = names.collect();
+    let named = |(name, unit): &(String, String)| match unit.as_str() {
+        "" => name.clone(),
+        unit => format!("{name} [{unit}]"),
+    };
+    let names: Vec<String> = table.columns.iter().map(named).collect();
     let mut text = csv(&names, &table.rows);
     if let Some(file) = &arguments.out {
         write_whole(file, &text)?;
