@@ -99,6 +99,9 @@ pub struct MeasuringProbe {
 /// The numbers of the particles of a phase that fulfil all conditions, and of all particles of the phase.
 type CountedNumbers = [Vec<usize>; 2];
 
+/// Values of columns, and their units.
+type NumbersWithUnits<U> = (Vec<f64>, Vec<U>);
+
 impl MeasuringProbe {
     /// Columns of all particles of a phase.
     pub(crate) fn of_phase(phase: Option<String>, columns: impl Into<Vec<PlannedColumn>>) -> Self {
@@ -189,7 +192,7 @@ impl MeasuringProbe {
         &self,
         of: &P,
         (counted, of_phase): (&[usize], &[usize]),
-    ) -> Result<(Vec<f64>, Vec<P::Unit>), P::Error> {
+    ) -> Result<NumbersWithUnits<P::Unit>, P::Error> {
         let weight = self.weight.as_ref().map(|weight| weight.values(of));
         let weight = weight.transpose()?.map(|(weight, _)| weight);
         let weights = |of: &[usize]| -> Option<Vec<f64>> {
