@@ -13,7 +13,7 @@ use crate::pores::PhaseMask;
 /// with Godunov's flux of grains that settle, and eddies that mix. Dilute grains have none where C ∝ exp(−wz/D), whatever
 /// the places of the particles.
 ///
-/// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s, of two particles their [`log_mean`]. Source: Scharfetter and Gummel 1969 for dilute grains;
+/// `drop` is the height Δz between the two, m, `diffusivity` D in m²/s, of two particles the logarithmic mean. Source: Scharfetter and Gummel 1969 for dilute grains;
 /// the sum with Godunov's flux is ours.
 pub fn pair_flux(
     settling: &HinderedSettling,
@@ -33,7 +33,7 @@ pub fn pair_flux(
 
 /// (b − a)/ln(b/a), the logarithmic mean of two diffusivities, m²/s: Δz over it is ∫dz/D where D is linear between them, as
 /// near a wall, and C ∝ D^(−w/D') is in balance. Zero if one of them is.
-pub fn log_mean(a: f64, b: f64) -> f64 {
+fn log_mean(a: f64, b: f64) -> f64 {
     let (least, most) = (a.min(b), a.max(b));
     if least <= 0.0 || least == most {
         return least.max(0.0);
