@@ -175,7 +175,7 @@ impl PluginKind {
         matches!(self.place, Place::One | Place::Any)
     }
 
-    /// The plugin that messages advise, as scenes name it: "`[damping.acoustic]`"; the kind alone where there is none.
+    /// The advised plugin as scenes name it, "`[damping.acoustic]`"; the kind alone if it advises no plugin.
     pub fn advice(&self) -> String {
         let plugin = self.advised.or(self.default);
         let name = plugin.map_or(self.name.into(), |name| format!("{}.{name}", self.name));

@@ -9,8 +9,7 @@
 //! * [`number`]: how numbers are written for people.
 //!
 //! Without the feature `plugins` there are only the parts that need no other crate: [`BoxTree`], [`Winding`],
-//! [`Symmetric`], [`course`], [`rectangular_duct`], [`nearest_place`], [`Pool`] and
-//! [`Slots`].
+//! [`Symmetric`], [`course`], [`rectangular_duct`], [`nearest_place`], [`Pool`] and [`Slots`].
 //!
 //! ```
 //! use sph_core::{Field, Role, Scalar, Store};

@@ -19,7 +19,7 @@ use crate::tool_arguments::MeasureArguments;
 /// A table of numbers.
 #[derive(Clone, Debug, Default)]
 pub struct MeasuredTable {
-    /// Names and units of the columns; the unit is empty where there is none.
+    /// Names and units of the columns; pure numbers have an empty unit.
     pub columns: Vec<(String, String)>,
     /// The rows, each with a number for every column.
     pub rows: Vec<Vec<f64>>,

@@ -35,6 +35,8 @@ pub(crate) struct Sample<const D: usize> {
     /// Mean accelerations, m/s²; none in flows that do not know them.
     pub mean_accelerations: Vec<Vect<D>>,
     pub states: Vec<State<D>>,
+    /// Number of scalars of state that the states have.
+    scalars: usize,
 }
 
 impl<const D: usize> Sample<D> {
@@ -58,6 +60,7 @@ impl<const D: usize> Sample<D> {
         let mean = free.get(fields::MEAN_ACCELERATION).ok();
         let mut sample = Sample {
             time: Some(flow.world.time),
+            scalars: scalars.len(),
             ..Sample::default()
         };
         for k in (0..position.len()).filter(|k| wanted(&position[*k])) {
@@ -178,13 +181,15 @@ impl<'a, const D: usize> Source<'a, D> {
             sum.velocity += state.velocity * *weight;
             sum.acceleration += state.acceleration * *weight;
             (least, most) = (least.min(state.density), most.max(state.density));
-            for (n, value) in state.scalars.into_iter().enumerate() {
+            for (n, value) in state.scalars[..self.sample.scalars].iter().enumerate() {
                 sum.scalars[n] += value * *weight;
-                ranges[n] = [ranges[n][0].min(value), ranges[n][1].max(value)];
+                ranges[n] = [ranges[n][0].min(*value), ranges[n][1].max(*value)];
             }
         }
-        for (sum, [least, most]) in sum.scalars.iter_mut().zip(ranges) {
-            *sum = sum.clamp(least, most);
+        let own = sum.scalars[..self.sample.scalars].iter_mut();
+        for (sum, [least, most]) in own.zip(ranges) {
+            // A clamp would panic where a scalar is no number.
+            *sum = sum.max(least).min(most);
         }
         let beyond = if most < SMOOTH * least {
             most - least

@@ -4,8 +4,6 @@ use std::sync::Arc;
 
 use sph_core::{BoxTree, bounds, nearest_place};
 
-use crate::geometry::vector::distance;
-
 /// All places within a distance of a wall, on both of its sides; along a period that the wall spans it has no ends.
 #[derive(Clone, Debug)]
 pub struct Surround<const D: usize> {
@@ -36,7 +34,10 @@ impl<const D: usize> Surround<D> {
 
     /// Distance of a point from its surface, m, positive inside.
     pub(crate) fn depth(&self, x: &[f64; D]) -> f64 {
-        let away = |k: usize| distance(x, &nearest_place(*x, &self.elements[k]).0).powi(2);
+        let away = |k: usize| {
+            let (place, _) = nearest_place(*x, &self.elements[k]);
+            (0..D).map(|axis| (x[axis] - place[axis]).powi(2)).sum()
+        };
         let nearest = self.tree.nearest(*x, f64::INFINITY, away);
         self.distance - nearest.map_or(f64::INFINITY, |(square, _)| square.sqrt())
     }

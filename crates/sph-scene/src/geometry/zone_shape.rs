@@ -44,7 +44,7 @@ impl Zone {
         }
     }
 
-    /// The wall that carries it: that which it follows, else that which it is near to, if it moves.
+    /// The wall that carries it: the wall of `follows`, else a moving wall of `near`.
     pub fn carrier<'a>(&'a self, scene: &Scene) -> Option<&'a String> {
         let moves = |wall: &Wall| wall.motion.is_some() || !wall.mover.is_empty();
         let near = self.near.as_ref().map(|near| &near.wall);
